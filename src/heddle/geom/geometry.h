@@ -1,0 +1,27 @@
+#pragma once
+
+#include <heddle/geom/bounds.h>
+#include <heddle/geom/curves.h>
+#include <heddle/geom/material.h>
+#include <heddle/geom/mesh.h>
+#include <heddle/geom/texture.h>
+#include <heddle/geom/yarn.h>
+
+#include <string>
+#include <vector>
+
+namespace heddle {
+
+/// All that a file or a generator holds: what the voxelizer takes.
+struct Geometry {
+    std::string name; ///< the object's name, from the file's
+    std::vector<CurveSet> curves;
+    std::vector<Mesh> meshes;
+    std::vector<Material> materials; ///< at most 256: a voxel's lobe names one by a byte
+    std::vector<Texture> textures;
+    std::vector<YarnType> yarns;
+    std::vector<std::string>
+        notes; ///< what the reader assumed, one sentence each, for the user to see
+};
+
+} // namespace heddle

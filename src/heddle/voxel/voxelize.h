@@ -1,0 +1,74 @@
+#pragma once
+
+#include <heddle/base/progress.h>
+#include <heddle/geom/geometry.h>
+#include <heddle/voxel/voxel_grid.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace heddle {
+
+enum class CoverageMode : std::uint8_t {
+    Columns, ///< a column counts when its centre ray meets the geometry inside the voxel
+    Mask     ///< the paper's: sampled subvoxels projected along the axis   [Fabre26, 3.5]
+};
+
+enum class FitMode : std::uint8_t {
+    Moments, ///< the SGGX whose second moment is the pooled one
+    Last     ///< the direction of one sample, as earlier voxelizers keep
+};
+
+/// What the user asks of the voxelizer. Nothing is required.
+struct VoxelizeOptions {
+    Vec3d voxel_size{};           ///< scene units per axis; all 0: from `voxels`
+    std::int64_t voxels = 0;      ///< along the longest axis; 0: 512
+    std::optional<Bounds> bounds; ///< scene units; voxels that lie inside it are kept
+    std::int32_t subvoxels = 8;   ///< per voxel axis: 1, 2, 4 or 8
+    std::int32_t max_lobes = 3;   ///< K, 1 to 8
+    CoverageMode coverage = CoverageMode::Columns;
+    FitMode fit = FitMode::Moments;
+    std::int64_t samples = 0;      ///< per span, with CoverageMode::Mask; 0: two a subvoxel
+    std::int64_t memory_bytes = 0; ///< peak resident size that is kept; 0: half of what is free
+    std::uint64_t seed = 0;
+    std::string spool_dir = "."; ///< where finished blocks go when memory is short
+    std::string command;         ///< kept in the result
+};
+
+/// What the voxelizer would do, and what it would cost.
+struct VoxelizePlan {
+    Lattice lattice;
+    Bounds bounds;                  ///< of what is voxelized, scene units
+    Vec3i voxel_lo, voxel_hi;       ///< voxel index range [lo, hi)
+    std::int32_t block_voxels = 32; ///< per block edge
+    std::int64_t blocks = 0;        ///< occupied by bounds
+    std::int64_t batches = 1;
+    std::int64_t primitives = 0; ///< spans and triangles
+    double steps = 0.0;          ///< subvoxel edges of fiber length, counted along the centrelines
+    double step_length = 0.0;    ///< scene units
+    double chord_error =
+        0.0; ///< largest distance of a fiber from the chords it is sampled by, subvoxels
+    std::int64_t voxels_estimate = 0;
+    std::int64_t peak_bytes = 0;   ///< predicted peak resident size
+    std::int64_t output_bytes = 0; ///< predicted size of the .vdb
+    bool spool = false;            ///< finished blocks wait in a temporary file
+    double seconds =
+        0.0; ///< predicted, on `thread_count()` threads of the machine that was measured
+};
+
+/// Plans the work: grid, blocks, batches, predicted bytes and time.
+/// @throws Error  InvalidArgument: voxel size not finite or <= 0, more than 2^40 voxels or 2^30 along
+///                an axis, an object without extent; OutOfMemory: `memory_bytes` below the least
+[[nodiscard]] VoxelizePlan plan_voxelize(const Geometry& geometry, const VoxelizeOptions& options);
+
+/// Voxelizes `geometry`: same bits for any thread count, memory limit and batch size; a region
+/// (`options.bounds`) gives the same voxels as the whole.      [Fabre26, 3; docs/voxelizer.md]
+/// @throws Error  as plan_voxelize; Cancelled
+[[nodiscard]] std::unique_ptr<VoxelSource> voxelize(const Geometry& geometry,
+                                                    const VoxelizeOptions& options,
+                                                    const VoxelizePlan& plan,
+                                                    Progress& progress);
+
+} // namespace heddle
