@@ -33,6 +33,8 @@ struct VoxelizeOptions {
     std::int64_t samples = 0;      ///< per span, with CoverageMode::Mask; 0: two a subvoxel
     std::int64_t memory_bytes = 0; ///< peak resident size that is kept; 0: half of what is free
     std::uint64_t seed = 0;
+    std::int64_t writer_bytes_per_leaf = 0; ///< what the caller will take per leaf while it walks the
+                                            ///< result (io/vdb says how much); part of the plan
     std::string spool_dir = "."; ///< where finished blocks go when memory is short
     std::string command;         ///< kept in the result
 };
@@ -42,17 +44,20 @@ struct VoxelizePlan {
     Lattice lattice;
     Bounds bounds;                  ///< of what is voxelized, scene units
     Vec3i voxel_lo, voxel_hi;       ///< voxel index range [lo, hi)
-    std::int32_t block_voxels = 32; ///< per block edge
-    std::int64_t blocks = 0;        ///< occupied by bounds
+    std::int32_t block_voxels = 32; ///< along a block edge
+    std::int64_t blocks = 0;        ///< that a primitive's bound touches
     std::int64_t batches = 1;
     std::int64_t primitives = 0; ///< spans and triangles
     double steps = 0.0;          ///< subvoxel edges of fiber length, counted along the centrelines
     double step_length = 0.0;    ///< scene units
     double chord_error =
         0.0; ///< largest distance of a fiber from the chords it is sampled by, subvoxels
-    std::int64_t voxels_estimate = 0;
-    std::int64_t peak_bytes = 0;   ///< predicted peak resident size
-    std::int64_t output_bytes = 0; ///< predicted size of the .vdb
+    // measured on a sample of the blocks:
+    std::int64_t voxels = 0;
+    std::int64_t lobes = 0;
+    std::int64_t leaves = 0;
+    std::int64_t touched_subvoxels = 0;
+    std::int64_t peak_bytes = 0; ///< predicted peak resident size, the caller's share included
     bool spool = false;            ///< finished blocks wait in a temporary file
     double seconds =
         0.0; ///< predicted, on `thread_count()` threads of the machine that was measured

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <heddle/base/platform.h>
+#include <heddle/base/vec.h>
+#include <heddle/voxel/lattice_units.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace heddle {
+
+/// Fixed-point scale of weights and moments: one unit^2 of directed area is 2^20; 64-bit sums hold
+/// 8.8e12 units^2.
+constexpr float kWeightScale = 1048576.0f;
+
+/// Pooled directions of one material in one voxel. Integer sums: no order of adding shows.
+struct LobeSums {
+    std::array<std::int64_t, 6> moment{}; ///< sum of weight x d d^T: xx yy zz xy xz yz
+    std::int64_t weight = 0;
+    std::uint32_t material = 0;
+    std::uint32_t next = 0; ///< index + 1 of the voxel's next lobe in BlockSums::more; 0: none
+};
+static_assert(sizeof(LobeSums) == 64);
+
+/// All that is gathered in one voxel.
+struct VoxelSums {
+    std::array<std::uint64_t, 3> column{}; ///< per axis, bit b * n + a of the other two axes (a < b)
+    std::array<std::uint64_t, 8> sub{};    ///< subvoxel (x, y, z): bit (x n + y) n + z over all words
+    LobeSums lobe;                         ///< the first material's; weight 0: none yet
+};
+static_assert(sizeof(VoxelSums) == 152);
+
+/// What a material's maps and an anisotropic surface's tangents sum to, beside a LobeSums. 8-bit map
+/// values times weight.
+struct MapSums {
+    std::array<std::int64_t, 6> tangent{}; ///< second moment of tangents
+    std::array<std::int64_t, 3> albedo{};
+    std::int64_t roughness = 0;
+    std::int64_t metalness = 0;
+    std::int64_t anisotropy = 0;
+};
+
+/// The sums of one block's voxels. Reused from block to block.
+class BlockSums {
+public:
+    static constexpr std::uint16_t kNone = 0xffff;
+    static constexpr int kVoxels = kBlockVoxels * kBlockVoxels * kBlockVoxels;
+
+    explicit BlockSums(bool with_maps);
+
+    /// Empties it for the block whose voxel range is [lo, hi), at most kBlockVoxels an axis.
+    void reset(Vec3i lo, Vec3i hi);
+
+    /// The voxel's sums, made empty at the first call. (x, y, z) relative to lo, inside the block.
+    HEDDLE_INLINE VoxelSums& voxel(int x, int y, int z) {
+        const auto cell = static_cast<std::uint32_t>((x * kBlockVoxels + y) * kBlockVoxels + z);
+        std::uint16_t& slot = table_[cell];
+        if (slot == kNone) {
+            slot = static_cast<std::uint16_t>(count_++);
+            voxels_[slot] = VoxelSums{};
+        }
+        return voxels_[slot];
+    }
+
+    /// The sums of `material` in `voxel`, made empty at the first call.
+    HEDDLE_INLINE LobeSums& lobe(VoxelSums& voxel, std::uint32_t material) {
+        if (voxel.lobe.weight != 0 && voxel.lobe.material != material) {
+            return other_lobe(voxel, material);
+        }
+        voxel.lobe.material = material;
+        return voxel.lobe;
+    }
+    /// The map sums that belong to a lobe of `voxel`; only where the accumulator was made with maps.
+    MapSums& maps(const VoxelSums& voxel, const LobeSums& lobe);
+
+    [[nodiscard]] Vec3i lo() const { return lo_; }
+    [[nodiscard]] Vec3i hi() const { return hi_; }
+    [[nodiscard]] int count() const { return count_; }
+    /// The voxel at (x, y, z) relative to lo, or null.
+    [[nodiscard]] const VoxelSums* find(int x, int y, int z) const {
+        const std::uint16_t slot =
+            table_[static_cast<std::size_t>((x * kBlockVoxels + y) * kBlockVoxels + z)];
+        return slot == kNone ? nullptr : &voxels_[slot];
+    }
+    [[nodiscard]] const LobeSums* next(const LobeSums& lobe) const {
+        return lobe.next == 0 ? nullptr : &more_[lobe.next - 1];
+    }
+    [[nodiscard]] const MapSums* find_maps(const VoxelSums& voxel, const LobeSums& lobe) const;
+    [[nodiscard]] bool has_maps() const { return with_maps_; }
+
+private:
+    LobeSums& other_lobe(VoxelSums& voxel, std::uint32_t material);
+
+    Vec3i lo_, hi_;
+    int count_ = 0;
+    bool with_maps_ = false;
+    std::vector<std::uint16_t> table_;
+    std::vector<VoxelSums> voxels_;
+    std::vector<LobeSums> more_; ///< second and later materials of voxels
+    std::vector<MapSums> maps_, more_maps_;
+};
+
+} // namespace heddle

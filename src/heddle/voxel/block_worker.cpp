@@ -1,0 +1,68 @@
+#include <heddle/voxel/block_worker.h>
+
+#include <algorithm>
+
+namespace heddle {
+namespace {
+
+/// What varies over the geometry's materials decides which optional data the voxels carry.
+VoxelGridFields fields_of(const Geometry& geometry) {
+    VoxelGridFields fields;
+    for (const CurveSet& set : geometry.curves) {
+        const bool slice = set.yarn >= 0 && geometry.yarns[static_cast<std::size_t>(set.yarn)].model ==
+                                                YarnModel::Slice;
+        fields.albedo = fields.albedo || slice || !set.color.empty();
+    }
+    for (const Mesh& mesh : geometry.meshes) {
+        const Material& m = geometry.materials[mesh.material];
+        fields.albedo = fields.albedo || m.albedo_map >= 0;
+        fields.surface = fields.surface || m.metal_rough_map >= 0 || m.anisotropy_map >= 0;
+        fields.tangents = fields.tangents || m.anisotropy > 0.0f;
+    }
+    return fields;
+}
+
+bool needs_maps(const FitOptions& fit) {
+    return fit.fields.albedo || fit.fields.surface || fit.fields.tangents;
+}
+
+} // namespace
+
+VoxelizeContext::VoxelizeContext(const Geometry& geometry_in,
+                                 const VoxelizeOptions& options_in,
+                                 const Lattice& lattice,
+                                 Vec3i voxel_lo,
+                                 Vec3i voxel_hi)
+    : geometry(geometry_in), options(options_in), units(lattice),
+      fibers(geometry_in, units, options_in.seed), triangles(geometry_in),
+      range(voxel_lo, voxel_hi),
+      fit{.subvoxels = lattice.subvoxels,
+          .max_lobes = options_in.max_lobes,
+          .project_subvoxels = options_in.coverage == CoverageMode::Mask,
+          .fields = fields_of(geometry_in)} {}
+
+BlockWorker::BlockWorker(const VoxelizeContext& context)
+    : context_(context), sums_(needs_maps(context.fit)), fibers_(context.fibers, context.options) {}
+
+BlockCounts BlockWorker::run(std::uint64_t block,
+                             std::span<const Primitive> primitives,
+                             const Progress& progress,
+                             VoxelBlock& out) {
+    Vec3i lo;
+    Vec3i hi;
+    context_.range.voxels(block, lo, hi);
+    sums_.reset(lo, hi);
+    // sorted: fiber pieces first, triangles (top bit set) after them
+    const auto split = static_cast<std::size_t>(
+        std::lower_bound(primitives.begin(), primitives.end(), kTriangleBit) - primitives.begin());
+    fibers_.gather(primitives.first(split), sums_, progress);
+    return fit_block(sums_, context_.fit, out);
+}
+
+std::int64_t BlockWorker::byte_count(const FitOptions& fit) {
+    const std::size_t voxel = sizeof(std::uint16_t) + sizeof(VoxelSums) +
+                              (needs_maps(fit) ? sizeof(MapSums) : 0);
+    return static_cast<std::int64_t>(voxel * BlockSums::kVoxels + (std::size_t{1} << 18));
+}
+
+} // namespace heddle

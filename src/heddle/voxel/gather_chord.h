@@ -1,0 +1,187 @@
+#pragma once
+
+#include <heddle/voxel/accumulator.h>
+#include <heddle/voxel/column_scan.h>
+
+#include <bit>
+
+namespace heddle {
+
+/// A straight piece of fiber, in units, relative to the corner of the voxel `anchor`.
+struct Chord {
+    Vec3f start;
+    Vec3f dir;        ///< unit
+    float length = 0; ///< > 0
+    float before = 0; ///< the round body goes on this far before the start and after the end, which
+    float after = 0;  ///< closes the wedge that a bend opens on its outer side
+    float radius = 0; ///< > 0
+};
+
+/// What a fiber leaves in the voxels that it passes.
+struct FiberPaint {
+    std::uint32_t material = 0;
+    std::uint32_t color = 0xffffff; ///< linear RGB, goes to the map sums where there are some
+    bool last = false;              ///< FitMode::Last: replaces the direction instead of pooling
+};
+
+/// Thicker than this, a fiber's directions are spread over the subvoxels it fills; thinner, along its
+/// centreline, which then is never far from what it fills. Units.
+constexpr float kThickRadius = 2.0f;
+
+HEDDLE_INLINE std::int64_t round_to_int(float x) {
+    return static_cast<std::int64_t>(x + (x < 0.0f ? -0.5f : 0.5f));
+}
+
+/// Part of the axial range in which the line origin + s dir lies within a voxel grown by `grow`.
+struct AxialRange {
+    float enter, leave;
+};
+HEDDLE_INLINE AxialRange
+clip_to_voxel(Vec3f origin, Vec3f inv_dir, Vec3f voxel, float grow, AxialRange range) {
+    for (int a = 0; a < 3; ++a) {
+        const float t0 = (-grow - origin[a]) * inv_dir[a];
+        const float t1 = (voxel[a] + grow - origin[a]) * inv_dir[a];
+        const float near = t0 < t1 ? t0 : t1;
+        const float far = t0 < t1 ? t1 : t0;
+        range.enter = near > range.enter ? near : range.enter;
+        range.leave = far < range.leave ? far : range.leave;
+    }
+    return range;
+}
+
+/// Sets the subvoxels whose centres lie in the cylinder, from a patch of columns along z.
+HEDDLE_INLINE int mark_subvoxels(VoxelSums& sums,
+                                 const LatticeUnits& u,
+                                 const ColumnView& v,
+                                 int a0,
+                                 int b0,
+                                 std::uint32_t hits,
+                                 const PatchDepths& depths) {
+    int marked = 0;
+    for (; hits != 0; hits &= hits - 1) {
+        const int lane = std::countr_zero(hits);
+        const int x = a0 + (lane & 3);
+        const int y = b0 + (lane >> 2);
+        if (x >= u.n || y >= u.n) continue;
+        const ColumnRange z = columns_in(depths.enter[lane], depths.leave[lane], u.inv_edge.z, u.n);
+        const float qa = (static_cast<float>(x) + 0.5f) * v.ea - v.oa;
+        const float qb = (static_cast<float>(y) + 0.5f) * v.eb - v.ob;
+        for (int k = z.first; k <= z.last; ++k) {
+            const float qc = (static_cast<float>(k) + 0.5f) * u.edge.z - v.oc;
+            const float axial = qa * v.da + qb * v.db + qc * v.dc;
+            if (axial < v.lo || axial > v.hi) continue;
+            const int bit = (x * u.n + y) * u.n + k;
+            sums.sub[static_cast<std::size_t>(bit >> 6)] |= std::uint64_t{1} << (bit & 63);
+            ++marked;
+        }
+    }
+    return marked;
+}
+
+/// Pools `weight` (units^2) of direction `dir` and the fiber's colour.
+HEDDLE_INLINE void
+pool_direction(BlockSums& block, VoxelSums& voxel, Vec3f d, float weight, const FiberPaint& paint) {
+    LobeSums& lobe = block.lobe(voxel, paint.material);
+    if (paint.last) lobe = {.weight = 0, .material = lobe.material, .next = lobe.next};
+    const float w = weight * kWeightScale;
+    const float products[6] = {d.x * d.x, d.y * d.y, d.z * d.z, d.x * d.y, d.x * d.z, d.y * d.z};
+    for (std::size_t i = 0; i < 6; ++i) lobe.moment[i] += round_to_int(products[i] * w);
+    // a voxel that a fiber only grazes still gets its direction
+    const std::int64_t area = round_to_int(w);
+    const std::int64_t whole = area > 0 ? area : 1;
+    lobe.weight += whole;
+    if (block.has_maps()) {
+        MapSums& maps = block.maps(voxel, lobe);
+        if (paint.last) maps = {};
+        for (std::size_t i = 0; i < 3; ++i) {
+            maps.albedo[i] += whole * ((paint.color >> (8 * i)) & 0xff);
+        }
+    }
+}
+
+/// Adds a chord to one voxel. `k.origin` is relative to the voxel's corner.
+HEDDLE_INLINE void gather_voxel(BlockSums& block,
+                                const LatticeUnits& u,
+                                const Cylinder& k,
+                                float length,
+                                Vec3f inv_dir,
+                                Vec3i at,
+                                const FiberPaint& paint) {
+    const AxialRange reach = clip_to_voxel(k.origin, inv_dir, u.voxel, k.radius, {k.lo, k.hi});
+    if (!(reach.enter < reach.leave)) return;
+    ColumnRange range[3];
+    for (int a = 0; a < 3; ++a) {
+        const float p0 = k.origin[a] + k.dir[a] * reach.enter;
+        const float p1 = k.origin[a] + k.dir[a] * reach.leave;
+        range[a] = columns_in((p0 < p1 ? p0 : p1) - k.radius, (p0 < p1 ? p1 : p0) + k.radius,
+                              u.inv_edge[a], u.n);
+    }
+    const auto ignore = [](const ColumnView&, int, int, std::uint32_t, const PatchDepths&) {};
+    const std::uint64_t mx = scan_columns<false>(k, u, 0, range, ignore);
+    const std::uint64_t my = scan_columns<false>(k, u, 1, range, ignore);
+    VoxelSums* sums = nullptr;
+    int marked = 0;
+    const auto mark = [&](const ColumnView& v, int a0, int b0, std::uint32_t hits,
+                          const PatchDepths& depths) __attribute__((always_inline)) {
+        if (sums == nullptr) sums = &block.voxel(at.x, at.y, at.z);
+        marked += mark_subvoxels(*sums, u, v, a0, b0, hits, depths);
+    };
+    const std::uint64_t mz = scan_columns<true>(k, u, 2, range, mark);
+    const AxialRange in = clip_to_voxel(k.origin, inv_dir, u.voxel, 0.0f, {0.0f, length});
+    const bool passes = in.enter < in.leave;
+    if ((mx | my | mz) == 0 && !passes) return;
+    VoxelSums& voxel = sums != nullptr ? *sums : block.voxel(at.x, at.y, at.z);
+    voxel.column[0] |= mx;
+    voxel.column[1] |= my;
+    voxel.column[2] |= mz;
+    // directed area: the projection 2 r L of the piece inside; a thick fiber's, 2 r L = (pi r^2 L)
+    // x 2 / (pi r), goes with the volume of the subvoxels it fills
+    float weight = 0.0f;
+    if (k.radius <= kThickRadius) {
+        weight = passes ? 2.0f * k.radius * (in.leave - in.enter) : 0.0f;
+    } else {
+        const float volume = u.edge.x * u.edge.y * u.edge.z;
+        weight = 0.63661977f * volume / k.radius * static_cast<float>(marked);
+    }
+    pool_direction(block, voxel, k.dir, weight, paint);
+}
+
+/// Adds a chord to the voxels of `block` that its round body meets.
+/// @param anchor  the voxel that the chord is relative to, relative to the block's lo
+HEDDLE_INLINE void gather_chord(BlockSums& block,
+                                const LatticeUnits& u,
+                                const Chord& chord,
+                                Vec3i anchor,
+                                Vec3i block_size,
+                                const FiberPaint& paint) {
+    Vec3f inv_dir;
+    int lo[3];
+    int hi[3];
+    for (int a = 0; a < 3; ++a) {
+        const float d = chord.dir[a];
+        const float safe = d > 1e-12f || d < -1e-12f ? d : 1e-12f;
+        inv_dir[a] = 1.0f / safe;
+        const float p0 = chord.start[a] - d * chord.before;
+        const float p1 = chord.start[a] + d * (chord.length + chord.after);
+        const float least = ((p0 < p1 ? p0 : p1) - chord.radius) * u.inv_voxel[a];
+        const float most = ((p0 < p1 ? p1 : p0) + chord.radius) * u.inv_voxel[a];
+        lo[a] = floor_to_int(least) + anchor[a];
+        hi[a] = floor_to_int(most) + anchor[a];
+        lo[a] = lo[a] > 0 ? lo[a] : 0;
+        hi[a] = hi[a] < block_size[a] ? hi[a] : block_size[a] - 1;
+    }
+    for (int x = lo[0]; x <= hi[0]; ++x) {
+        for (int y = lo[1]; y <= hi[1]; ++y) {
+            for (int z = lo[2]; z <= hi[2]; ++z) {
+                const Vec3f corner{static_cast<float>(x - anchor.x) * u.voxel.x,
+                                   static_cast<float>(y - anchor.y) * u.voxel.y,
+                                   static_cast<float>(z - anchor.z) * u.voxel.z};
+                const Cylinder k{chord.start - corner, chord.dir, -chord.before,
+                                 chord.length + chord.after, chord.radius};
+                gather_voxel(block, u, k, chord.length, inv_dir, {x, y, z}, paint);
+            }
+        }
+    }
+}
+
+} // namespace heddle

@@ -1,0 +1,274 @@
+#include <heddle/base/memory.h>
+#include <heddle/base/parallel.h>
+#include <heddle/base/random.h>
+#include <heddle/voxel/block_worker.h>
+#include <heddle/voxel/voxelize.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace heddle {
+namespace {
+
+constexpr double kMaxVoxels = 0x1p40;
+constexpr double kMaxAxis = 0x1p30; ///< indices are 32-bit in VDB; room for the lattice's corner
+constexpr std::int64_t kDefaultVoxels = 512;
+
+/// Seconds = (a steps + b touched subvoxels + c voxels) / threads; fitted over nine runs on two cores
+/// of an AMD EPYC with AVX2 (bench/results/voxelize.md).
+constexpr double kSecondsPerStep = 1.0e-8;
+constexpr double kSecondsPerSubvoxel = 2.0e-9;
+constexpr double kSecondsPerVoxel = 4.0e-7;
+
+/// What the program and its libraries take before any data: measured on `heddle info`.
+constexpr std::int64_t kProgramBytes = 48 << 20;
+
+[[noreturn]] void bad(const std::string& what, const std::string& fix) {
+    throw Error(ErrorCode::InvalidArgument, "voxelize: " + what, fix);
+}
+
+float largest_radius(const CurveSet& set, const YarnType* yarn) {
+    if (yarn != nullptr && yarn->radius > 0.0f) return yarn->radius;
+    if (set.radius.empty()) return set.default_radius;
+    return *std::max_element(set.radius.begin(), set.radius.end());
+}
+
+/// Box of all matter: control hulls grown by the primitives' reach.
+Bounds bounds_of(const Geometry& geometry) {
+    Bounds box;
+    const auto join = [](Bounds a, const Bounds& b) {
+        a.grow(b);
+        return a;
+    };
+    for (const CurveSet& set : geometry.curves) {
+        const YarnType* yarn =
+            set.yarn < 0 ? nullptr : &geometry.yarns[static_cast<std::size_t>(set.yarn)];
+        const float factor = yarn == nullptr ? 1.0f : yarn_reach(*yarn) / yarn->model_radius;
+        const auto reach = static_cast<double>(factor * largest_radius(set, yarn));
+        Bounds hulls = reduce_chunks(
+            set.curve_count(), 64, Bounds{},
+            [&](std::size_t begin, std::size_t end) {
+                Bounds part;
+                for (std::size_t c = begin; c < end; ++c) {
+                    const std::size_t spans = set.span_count(c);
+                    for (std::size_t k = 0; k < spans; ++k) part.grow(span_cubic(set, c, k).hull());
+                }
+                return part;
+            },
+            join);
+        if (hulls.empty()) continue;
+        box.grow(hulls.lo, reach);
+        box.grow(hulls.hi, reach);
+    }
+    const TriangleSource triangles(geometry);
+    for (std::uint32_t m = 0; m < geometry.meshes.size(); ++m) {
+        const double move = triangles.displacement(m);
+        for (const Vec3f& p : geometry.meshes[m].positions) box.grow(to_double(p), move);
+    }
+    return box;
+}
+
+Lattice choose_lattice(const VoxelizeOptions& options, const Bounds& whole) {
+    Lattice lattice{.voxel_size = options.voxel_size, .subvoxels = options.subvoxels};
+    const Vec3d size = whole.size();
+    const double longest = std::max({size.x, size.y, size.z});
+    if (options.voxel_size == Vec3d{}) {
+        const std::int64_t voxels = options.voxels == 0 ? kDefaultVoxels : options.voxels;
+        if (voxels < 1) bad(str("voxels along the longest axis is ", voxels), "use 1 or more");
+        const double h = longest / static_cast<double>(voxels);
+        lattice.voxel_size = {h, h, h};
+    }
+    for (int a = 0; a < 3; ++a) {
+        const double h = lattice.voxel_size[a];
+        if (!(h > 0.0) || !std::isfinite(h)) {
+            bad(str("voxel size ", h, " on axis ", "xyz"[a], " is not a positive number"),
+                "use a length in scene units");
+        }
+    }
+    const Vec3d& h = lattice.voxel_size;
+    if (std::max({h.x, h.y, h.z}) / std::min({h.x, h.y, h.z}) > 64.0) {
+        bad(str("voxel edges ", h.x, ", ", h.y, ", ", h.z, " differ by more than 64 times"),
+            "use less flat voxels");
+    }
+    return lattice;
+}
+
+void check_options(const VoxelizeOptions& o) {
+    if (o.subvoxels != 1 && o.subvoxels != 2 && o.subvoxels != 4 && o.subvoxels != 8) {
+        bad(str("subvoxels per axis is ", o.subvoxels), "use 1, 2, 4 or 8");
+    }
+    if (o.max_lobes < 1 || o.max_lobes > 8) bad(str("lobes is ", o.max_lobes), "use 1 to 8");
+    if (o.samples < 0) bad(str("samples is ", o.samples), "use 0 or more");
+}
+
+void check_geometry(const Geometry& geometry, const Bounds& whole) {
+    if (geometry.materials.size() > 256) {
+        bad(str(geometry.materials.size(), " materials in '", geometry.name, "' (limit 256)"),
+            "merge some, or voxelize parts of it");
+    }
+    for (const CurveSet& set : geometry.curves) {
+        const YarnType* yarn =
+            set.yarn < 0 ? nullptr : &geometry.yarns[static_cast<std::size_t>(set.yarn)];
+        const bool given = (yarn != nullptr && yarn->radius > 0.0f) || !set.radius.empty() ||
+                           set.default_radius > 0.0f;
+        if (!given) bad(str("'", geometry.name, "' names no radius"), "give --yarn-radius");
+    }
+    const Vec3d size = whole.size();
+    if (whole.empty() || !(std::max({size.x, size.y, size.z}) > 0.0)) {
+        bad(str("'", geometry.name, "' has no extent"), "check the file with heddle info");
+    }
+}
+
+/// Voxels that the region touches. @throws Error when there are too many
+void choose_range(VoxelizePlan& plan, const std::string& name) {
+    double total = 1.0;
+    double most = 0.0;
+    for (int a = 0; a < 3; ++a) {
+        const double h = plan.lattice.voxel_size[a];
+        const double lo = std::floor(plan.bounds.lo[a] / h);
+        double hi = std::ceil(plan.bounds.hi[a] / h);
+        if (hi <= lo) hi = lo + 1.0; // a flat object on a voxel's face
+        total *= hi - lo;
+        most = std::max({most, std::abs(lo), std::abs(hi)});
+        if (most <= kMaxAxis) {
+            plan.voxel_lo[a] = static_cast<std::int32_t>(lo);
+            plan.voxel_hi[a] = static_cast<std::int32_t>(hi);
+        }
+    }
+    if (total <= kMaxVoxels && most <= kMaxAxis) return;
+    const double factor = std::max(std::cbrt(total / kMaxVoxels), most / kMaxAxis);
+    const Vec3d& h = plan.lattice.voxel_size;
+    const bool many = total > kMaxVoxels;
+    bad(str("voxel size ", h.x, " needs ", many ? total : most, many ? " voxels" : " voxels from the origin",
+            " over '", name, "' (limit 2^", many ? 40 : 30, ")"),
+        str("use at least ", h.x * factor * 1.01));
+}
+
+/// Runs a hashed sample of the blocks and scales what came out by the primitives they hold.
+void measure_sample(VoxelizePlan& plan, const VoxelizeContext& context, const Bins& bins) {
+    const std::size_t blocks = bins.blocks().size();
+    if (blocks == 0) return;
+    const std::size_t wanted = std::clamp<std::size_t>(blocks / 32, 4, 48);
+    const std::size_t stride = std::max<std::size_t>(1, blocks / wanted);
+    std::vector<std::uint32_t> chosen;
+    double entries = 0.0;
+    for (std::size_t i = 0; i < blocks; i += stride) {
+        const std::size_t width = std::min(stride, blocks - i);
+        chosen.push_back(bins.blocks()[i + hash64(0, i) % width]);
+        entries += static_cast<double>(bins.entries(chosen.back()));
+    }
+    const Progress silent;
+    const Bins::Lists lists = bins.fill(chosen, silent);
+    WorkerPool pool(context);
+    std::vector<BlockCounts> counts(chosen.size());
+    parallel_chunks(chosen.size(), 1, [&](std::size_t s, std::size_t) {
+        pool.with([&](BlockWorker& worker) {
+            VoxelBlock out;
+            counts[s] = worker.run(chosen[s], lists.of(s), silent, out);
+        });
+    });
+    const double scale = static_cast<double>(bins.total_entries()) / entries;
+    const auto scaled = [&](std::int64_t BlockCounts::*field) {
+        std::int64_t sum = 0;
+        for (const BlockCounts& c : counts) sum += c.*field;
+        return static_cast<std::int64_t>(static_cast<double>(sum) * scale + 0.5);
+    };
+    plan.voxels = scaled(&BlockCounts::voxels);
+    plan.lobes = scaled(&BlockCounts::lobes);
+    plan.leaves = scaled(&BlockCounts::leaves);
+    plan.touched_subvoxels = scaled(&BlockCounts::subvoxels);
+}
+
+template <typename T>
+std::int64_t bytes_of(const std::vector<T>& v) {
+    return static_cast<std::int64_t>(v.capacity() * sizeof(T));
+}
+
+std::int64_t geometry_bytes(const Geometry& geometry) {
+    std::int64_t sum = 0;
+    for (const CurveSet& s : geometry.curves) {
+        sum += bytes_of(s.points) + bytes_of(s.first) + bytes_of(s.closed) + bytes_of(s.radius) +
+               bytes_of(s.color);
+    }
+    for (const Mesh& m : geometry.meshes) {
+        sum += bytes_of(m.positions) + bytes_of(m.normals) + bytes_of(m.tangents) + bytes_of(m.uvs) +
+               bytes_of(m.triangles);
+    }
+    for (const Texture& t : geometry.textures) sum += bytes_of(t.texels);
+    return sum;
+}
+
+/// Splits the work into batches and decides whether finished blocks wait in a file.
+void plan_memory(VoxelizePlan& plan, const VoxelizeContext& context, const Bins& bins) {
+    std::int64_t limit = context.options.memory_bytes;
+    if (limit == 0) limit = std::max<std::int64_t>(available_bytes() / 2, std::int64_t{1} << 30);
+    const std::int64_t fixed =
+        kProgramBytes + geometry_bytes(context.geometry) + context.fibers.byte_count();
+    const std::int64_t counts = bins.byte_count();
+    const std::int64_t workers = thread_count() * BlockWorker::byte_count(context.fit);
+    const VoxelGridFields& fields = context.fit.fields;
+    const auto per_lobe = static_cast<std::int64_t>(
+        sizeof(Lobe) + (fields.albedo || fields.surface ? sizeof(LobeMaps) : 0) +
+        (fields.tangents ? sizeof(PackedSggx) : 0));
+    const auto result = plan.leaves * static_cast<std::int64_t>(sizeof(VoxelLeaf)) +
+                        plan.voxels * static_cast<std::int64_t>(sizeof(Coverage) + 1) +
+                        plan.lobes * per_lobe;
+    const std::int64_t writer = plan.leaves * context.options.writer_bytes_per_leaf;
+    const auto entries = static_cast<std::int64_t>(bins.total_entries() * sizeof(Primitive));
+
+    const auto peak = [&](std::int64_t kept, std::int64_t lists) {
+        return fixed + std::max(counts + workers + kept + lists, kept + writer);
+    };
+    plan.spool = peak(result, std::min(entries, limit / 8)) > limit;
+    const std::int64_t kept = plan.spool ? 0 : result;
+    const std::int64_t room = limit - fixed - counts - workers - kept;
+    const std::int64_t lists = std::max<std::int64_t>(room, entries / 64 + 1);
+    plan.batches = entries == 0 ? 1 : (entries + lists - 1) / lists;
+    plan.peak_bytes = peak(kept, std::min(entries, lists));
+    if (plan.peak_bytes > limit && context.options.memory_bytes != 0) {
+        throw Error(ErrorCode::OutOfMemory,
+                    str("voxelize: ", limit / 1048576, " MiB of memory is not enough for about ",
+                        plan.voxels, " voxels"),
+                    str("give at least ", plan.peak_bytes / 1048576 + 1, "M, or use larger voxels"));
+    }
+}
+
+} // namespace
+
+VoxelizePlan plan_voxelize(const Geometry& geometry, const VoxelizeOptions& options) {
+    check_options(options);
+    const Bounds whole = bounds_of(geometry);
+    check_geometry(geometry, whole);
+    VoxelizePlan plan;
+    plan.lattice = choose_lattice(options, whole);
+    plan.bounds = whole;
+    if (options.bounds) {
+        for (int a = 0; a < 3; ++a) {
+            plan.bounds.lo[a] = std::max(whole.lo[a], options.bounds->lo[a]);
+            plan.bounds.hi[a] = std::min(whole.hi[a], options.bounds->hi[a]);
+        }
+        if (plan.bounds.empty()) {
+            bad("the bounds do not meet the object", "heddle info shows where it lies");
+        }
+    }
+    choose_range(plan, geometry.name);
+    const VoxelizeContext context(geometry, options, plan.lattice, plan.voxel_lo, plan.voxel_hi);
+    const Progress silent;
+    const Bins bins(context.fibers, context.triangles, context.range, silent);
+    plan.block_voxels = kBlockVoxels;
+    plan.blocks = static_cast<std::int64_t>(bins.blocks().size());
+    plan.primitives =
+        static_cast<std::int64_t>(context.fibers.span_count() + context.triangles.count());
+    plan.steps = context.fibers.steps();
+    plan.step_length = context.units.unit;
+    plan.chord_error = kChordSagitta * 2.0 / 3.0;
+    measure_sample(plan, context, bins);
+    plan.seconds = (kSecondsPerStep * plan.steps +
+                    kSecondsPerSubvoxel * static_cast<double>(plan.touched_subvoxels) +
+                    kSecondsPerVoxel * static_cast<double>(plan.voxels)) /
+                   thread_count();
+    plan_memory(plan, context, bins);
+    return plan;
+}
+
+} // namespace heddle
