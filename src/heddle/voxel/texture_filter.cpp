@@ -22,18 +22,30 @@ std::uint16_t linear_from_byte(int byte, bool srgb) {
     return static_cast<std::uint16_t>(std::lround(l * 65535.0));
 }
 
+// std::floor for |x| < 2^31; a call into libm where the machine's baseline has no instruction for it.
+float floor_of(float x) {
+    const auto i = static_cast<float>(static_cast<std::int32_t>(x));
+    return i > x ? i - 1.0f : i;
+}
+
 // `u` brought into [0, 1]. Beyond 2^20 no fraction worth reading is left; NaN goes the same way.
 float wrapped(float u, Wrap wrap) {
     if (!(std::abs(u) < 0x1p20f)) return 0.0f;
     switch (wrap) {
-    case Wrap::Repeat: return u - std::floor(u);
+    case Wrap::Repeat: return u - floor_of(u);
     case Wrap::Clamp: return std::clamp(u, 0.0f, 1.0f);
     case Wrap::Mirror: {
-        const float t = u - 2.0f * std::floor(0.5f * u);
+        const float t = u - 2.0f * floor_of(0.5f * u);
         return t > 1.0f ? 2.0f - t : t;
     }
     }
     return u;
+}
+
+// Texel -1 or n, seen across the border; a mirrored border repeats its texel.
+std::int32_t wrapped_texel(std::int32_t i, std::int32_t n, Wrap wrap) {
+    if (wrap == Wrap::Repeat) return i < 0 ? i + n : i >= n ? i - n : i;
+    return std::clamp(i, 0, n - 1);
 }
 
 // The texels on both sides of texel coordinate `x`, and how far it is to the second.
@@ -41,12 +53,8 @@ void neighbours(float u, std::int32_t n, Wrap wrap, std::int32_t& i0, std::int32
     const float x = wrapped(u, wrap) * static_cast<float>(n) - 0.5f;
     const auto below = static_cast<std::int32_t>(x + 1.0f) - 1; // x >= -1/2
     f = x - static_cast<float>(below);
-    const auto into = [&](std::int32_t i) {
-        if (wrap == Wrap::Repeat) return i < 0 ? i + n : i >= n ? i - n : i;
-        return std::clamp(i, 0, n - 1);
-    };
-    i0 = into(below);
-    i1 = into(below + 1);
+    i0 = wrapped_texel(below, n, wrap);
+    i1 = wrapped_texel(below + 1, n, wrap);
 }
 
 void check_texture(const Texture& t) {
@@ -69,6 +77,12 @@ FilteredTexture::FilteredTexture(const Texture& texture,
     check_texture(texture);
     const bool has_alpha = texture.channels == 2 || texture.channels == 4;
     if (!has_alpha && weight == TexelWeight::Alpha) weight_ = TexelWeight::One;
+    texels_ = texture.texels.data();
+    channels_ = static_cast<std::size_t>(texture.channels);
+    green_ = channels_ < 3 ? 0 : 1;
+    blue_ = channels_ < 3 ? 0 : 2;
+    alpha_ = channels_ - 1;
+    opaque_ = has_alpha ? 0 : 65535;
     threshold_ = static_cast<std::uint32_t>(std::clamp(threshold, 0.0f, 2.0f) * kOne + 0.5f);
     texels_per_uv_ =
         std::sqrt(static_cast<float>(texture.width) * static_cast<float>(texture.height));
@@ -92,16 +106,12 @@ FilteredTexture::FilteredTexture(const Texture& texture,
 }
 
 FilteredTexture::Texel FilteredTexture::raw(std::int32_t x, std::int32_t y) const {
-    const Texture& t = *texture_;
-    const auto channels = static_cast<std::size_t>(t.channels);
-    const std::uint8_t* p =
-        t.texels.data() + (static_cast<std::size_t>(y) * static_cast<std::size_t>(t.width) +
-                           static_cast<std::size_t>(x)) *
-                              channels;
-    const bool grey = channels < 3;
-    const bool has_alpha = channels == 2 || channels == 4;
-    return {decode_[p[0]], decode_[p[grey ? 0 : 1]], decode_[p[grey ? 0 : 2]],
-            static_cast<std::uint16_t>(has_alpha ? p[channels - 1] * 257 : 65535)};
+    const std::size_t at =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(levels_[0].width) +
+        static_cast<std::size_t>(x);
+    const std::uint8_t* p = texels_ + at * channels_;
+    return {decode_[p[0]], decode_[p[green_]], decode_[p[blue_]],
+            static_cast<std::uint16_t>(p[alpha_] * 257 | opaque_)};
 }
 
 namespace {
@@ -121,16 +131,27 @@ FilteredTexture::Texel FilteredTexture::weighted(std::int32_t x, std::int32_t y)
     return {times(t[0], t[3]), times(t[1], t[3]), times(t[2], t[3]), t[3]};
 }
 
-// How many of the centres of a finest texel's quarters are covered, the alpha being bilinear.
+// How many of the centres of a finest texel's quarters are covered, the alpha being bilinear: there
+// the four nearest texels weigh 9/16, 3/16, 3/16 and 1/16.
 std::uint32_t FilteredTexture::quarters_covered(std::int32_t x, std::int32_t y) const {
+    std::uint32_t alpha[3][3], least = 65535, most = 0;
+    for (std::int32_t v = 0; v < 3; ++v)
+        for (std::int32_t u = 0; u < 3; ++u) {
+            const std::uint32_t a =
+                raw(wrapped_texel(x + u - 1, texture_->width, texture_->wrap_u),
+                    wrapped_texel(y + v - 1, texture_->height, texture_->wrap_v))[3];
+            alpha[v][u] = a;
+            least = std::min(least, a);
+            most = std::max(most, a);
+        }
+    if (least >= threshold_) return 4;
+    if (most < threshold_) return 0;
     std::uint32_t n = 0;
-    for (int q = 0; q < 4; ++q) {
-        const float u =
-            (static_cast<float>(x) + (q & 1 ? 0.75f : 0.25f)) / static_cast<float>(texture_->width);
-        const float v = (static_cast<float>(y) + (q & 2 ? 0.75f : 0.25f)) /
-                        static_cast<float>(texture_->height);
-        n += coverage_at_point({u, v}) > 0.0f ? 1u : 0u;
-    }
+    for (std::uint32_t v = 0; v < 3; v += 2)
+        for (std::uint32_t u = 0; u < 3; u += 2)
+            n += 9 * alpha[1][1] + 3 * (alpha[1][u] + alpha[v][1]) + alpha[v][u] >= 16 * threshold_
+                     ? 1u
+                     : 0u;
     return n;
 }
 

@@ -83,6 +83,9 @@ private:
     [[nodiscard]] Sum sum_at(Uv uv, std::size_t level) const;
 
     const Texture* texture_;
+    const std::uint8_t* texels_ = nullptr;
+    std::size_t channels_ = 0, green_ = 0, blue_ = 0, alpha_ = 0; ///< offsets within a texel
+    int opaque_ = 0;                                              ///< 65535 where alpha is missing
     TexelWeight weight_;
     std::uint32_t threshold_ = 0; ///< 65536 and more: no alpha reaches it
     float texels_per_uv_ = 0.0f;

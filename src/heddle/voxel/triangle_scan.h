@@ -154,21 +154,17 @@ namespace scan_detail {
 /// An edge of the projected triangle from (u, v) to (u + du, v + dv), dv >= 0.
 struct RowEdge {
     std::int64_t u, v, du, dv;
-    std::int64_t first_a, first_b; ///< first_center of its ends
-    double inverse; ///< 1 / (dv x 4096); unused where both ends have one first_center
+    double inverse; ///< 1 / (dv x 4096); infinite where the edge lies along a row and crosses none
 };
 
 [[nodiscard]] HEDDLE_HD inline RowEdge
 make_row_edge(std::int64_t u0, std::int64_t v0, std::int64_t u1, std::int64_t v1) {
-    RowEdge e{u0, v0, u1 - u0, v1 - v0, first_center(u0), first_center(u1), 0.0};
-    if (e.first_a != e.first_b && e.dv != 0) e.inverse = 1.0 / static_cast<double>(e.dv * kScanOne);
-    return e;
+    return {u0, v0, u1 - u0, v1 - v0, 1.0 / static_cast<double>((v1 - v0) * kScanOne)};
 }
 
 /// First column whose centre is at or past the edge's crossing with the row of coordinate `y`.
 template <typename Int>
 [[nodiscard]] HEDDLE_HD inline std::int64_t cross_row(const RowEdge& e, std::int64_t y) {
-    if (e.first_a == e.first_b) return e.first_a; // monotone, so it is the same all along the edge
     const Int number = Int{e.u - kScanHalf} * Int{e.dv} + Int{e.du} * Int{y - e.v};
     const Int unit = Int{e.dv} * Int{kScanOne};
     auto q = static_cast<std::int64_t>(static_cast<double>(number) * e.inverse);
