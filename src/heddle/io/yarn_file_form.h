@@ -1,0 +1,70 @@
+#pragma once
+
+#include <heddle/geom/yarn.h>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+/// What the two textual forms of a yarn share: the fields, their ranges, the problems found.
+namespace heddle::yarn_form {
+
+inline constexpr std::int64_t kMostFibers = 1'000'000;
+
+/// A number, flag or pair of YarnType.
+using Member = std::variant<float YarnType::*,
+                            std::int32_t YarnType::*,
+                            bool YarnType::*,
+                            MeanSd YarnType::*,
+                            Vec3f YarnType::*>;
+
+/// One field: its key in TOML (the member's name) and in a fit (empty: none), its model, its range.
+struct Field {
+    std::string_view key;
+    std::string_view fit_key;
+    YarnModel model; ///< whose field it is; Solid: every model's
+    Member member;
+    double least = 0.0, most = 0.0;
+    bool above = false;     ///< `least` itself is not allowed
+    bool fit_needs = false; ///< a fit without it cannot be used
+};
+
+[[nodiscard]] const std::vector<Field>& fields();
+[[nodiscard]] std::string_view to_string(YarnModel model);
+
+/// Collects what is wrong with a file, to be thrown as one Error.
+class Problems {
+public:
+    explicit Problems(std::string path) : path_(std::move(path)) {}
+    /// @param line  1-based; 0: the file as a whole
+    void add(std::int64_t line, std::string text);
+    /// @throws BadFile when there is any
+    void throw_if_any() const;
+
+private:
+    struct Problem {
+        std::int64_t line;
+        std::string text;
+    };
+    std::string path_;
+    std::vector<Problem> problems_;
+};
+
+/// Sets a field from its numbers (a flag: 0 or 1), or adds why it cannot.
+void set_field(YarnType& yarn,
+               const Field& field,
+               std::string_view key,
+               const std::vector<double>& numbers,
+               std::int64_t line,
+               Problems& problems);
+
+/// Checks what no field can tell alone, and fills in the fiber radius where it is 0.
+/// @return a note on the fiber radius, or nothing
+[[nodiscard]] std::string complete(YarnType& yarn, Problems& problems);
+
+/// "; did you mean 'x'?" with the known key that is nearest, then the known keys if they are few.
+[[nodiscard]] std::string suggest(std::string_view key, const std::vector<std::string_view>& known);
+
+} // namespace heddle::yarn_form
