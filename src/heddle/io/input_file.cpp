@@ -109,7 +109,8 @@ void ByteReader::fail(std::uint64_t at, const std::string& what, const std::stri
 }
 
 void ByteReader::read(void* out, std::uint64_t bytes, const char* what) {
-    require(1, std::max<std::uint64_t>(bytes, 1), what);
+    if (bytes == 0) return;
+    require(1, bytes, what);
     char* to = static_cast<char*>(out);
     const std::uint64_t buffer_end = buffer_start_ + buffer_.size();
     if (offset_ >= buffer_start_ && offset_ < buffer_end) { // what the buffer holds of it
