@@ -89,9 +89,10 @@ void read_curve(ByteReader& file, std::uint64_t curve, CurveSet& set, ProblemLis
 
 /// Opens the cubic curves whose closing span is an artefact, and returns how many.
 ///
-/// Two of the 22 yarns of Yuksel's tea_cozy.bcc are marked closed with their ends on opposite sides of
-/// the cozy, 100 times their longest step apart; drawn as marked they cross it as taut strings. A cubic
-/// that is uniform otherwise has no use for such a step; a polyline may have one and is left alone.
+/// Two of the 22 yarns of Yuksel's tea_cozy.bcc are marked closed with their ends on opposite sides
+/// of the cozy, 100 times their longest step apart; drawn as marked they cross it as taut strings.
+/// A cubic that is uniform otherwise has no use for such a step; a polyline may have one and is
+/// left alone.
 std::uint64_t open_false_closures(CurveSet& set) {
     constexpr float kFarthest = 16.0f; // times the longest step; real closures have at most 1.1
     if (set.basis == Basis::Linear) return 0;

@@ -128,7 +128,8 @@ void settle_yarn_radius(const CurveReadOptions& options, Geometry& geometry) {
                                      kRadiusOption));
         return;
     }
-    // no yarn beside it: hundredth of its extent is thin enough to be a yarn and thick enough to see
+    // no yarn beside it: hundredth of its extent is thin enough to be a yarn and thick enough to
+    // see
     set.default_radius = round_to_three_digits(40.0f * default_hair_radius(set));
     geometry.notes.push_back(str("radius ", three_digits(set.default_radius),
                                  " is 1/100 of the longest side: no neighbouring yarns to estimate "

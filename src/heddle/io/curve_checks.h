@@ -25,8 +25,8 @@ private:
     std::string fix_;
 };
 
-/// Fewest points of a curve that has something to draw: 2 on a polyline, 4 on an open cubic (the end
-/// points are phantoms), 3 on a closed curve.
+/// Fewest points of a curve that has something to draw: 2 on a polyline, 4 on an open cubic (the
+/// end points are phantoms), 3 on a closed curve.
 [[nodiscard]] std::uint64_t min_point_count(Basis basis, bool closed);
 
 /// Adds curve `curve` to `problems` if it has fewer points than its basis needs.

@@ -21,9 +21,9 @@ struct CurveStats {
 
 /// Counts, length and extent of the curves that `set` describes, not of its control polygons.
 ///
-/// Length: 5-point Gauss-Legendre on every span; exact for straight ones, within 1e-5 for the bends
-/// of yarn (tested on a circle of 8 points: 2e-6). Bounds: the hull of every span's Bezier form, which
-/// holds the curve and is at most a few percent of a span larger.
+/// Length: 5-point Gauss-Legendre on every span; exact for straight ones, within 2e-6 on the shared
+/// yarn files (four chords a span: 2e-3). Bounds: the hull of every span's Bezier form, which holds
+/// the curve and is a few percent of a span larger at most.
 /// Parallel; the same bits for any thread count.
 [[nodiscard]] CurveStats measure(const CurveSet& set);
 

@@ -11,13 +11,16 @@ namespace heddle {
 /// One piece of a curve as a cubic Bezier: its four control points, scene units.
 using BezierSpan = std::array<Vec3d, 4>;
 
-/// Index into `set.points` of the point `offset` places after the first that span `span` depends on.
+/// Index into `set.points` of the point `offset` places after the first one of span `span`.
 /// Closed curves wrap; the spans of a closed cubic start at its point 0.
 [[nodiscard]] inline std::size_t
 span_point(const CurveSet& set, std::size_t curve, std::size_t span, std::size_t offset) {
     const std::size_t n = set.first[curve + 1] - set.first[curve];
     std::size_t local = span + offset;
-    if (set.is_closed(curve)) local = (local + (set.basis == Basis::Linear ? 0 : n - 1)) % n;
+    if (set.is_closed(curve)) {
+        if (set.basis != Basis::Linear) local += n - 1;
+        while (local >= n) local -= n; // once or twice; a 64-bit % costs more than the whole span
+    }
     return set.first[curve] + local;
 }
 

@@ -42,6 +42,21 @@ TEST(EstimateRadius, OneYarnThatRunsBackAndForthIsItsOwnNeighbour) {
     EXPECT_NEAR(estimate_radius(set), 0.1f, 0.003f);
 }
 
+TEST(EstimateRadius, IsTheMedianAndNoProbeIsItsOwnNeighbour) {
+    // one yarn in 101 rows whose distances grow from 0.2 to 0.4: the median row is 0.3 from its last.
+    // Probes taken for their own neighbours, at distance 0, would move the median.
+    CurveSet set;
+    float y = 0.0f;
+    for (int row = 0; row < 101; ++row) {
+        for (int i = 0; i < 80; ++i) {
+            set.points.push_back({0.217f * static_cast<float>(row % 2 == 0 ? i : 79 - i), y, 0});
+        }
+        y += 0.2f + 0.002f * static_cast<float>(row);
+    }
+    set.first = {0, set.points.size()};
+    EXPECT_NEAR(estimate_radius(set), 0.15f, 0.002f);
+}
+
 TEST(EstimateRadius, ABendIsNotItsOwnNeighbour) {
     CurveSet set; // one circle: half of the way around is never twice the straight way
     for (int i = 0; i < 100; ++i) {

@@ -155,7 +155,8 @@ std::uint64_t drop_single_points(CurveSet& set) {
     return strands - kept;
 }
 
-/// The file's thickness where it has a usable one, else the default for hair; the option before both.
+/// The file's thickness where it has a usable one, else the default for hair; the option before
+/// both.
 void settle_radius(const HairHeader& h, const CurveReadOptions& options, Geometry& geometry) {
     CurveSet& set = geometry.curves.front();
     const bool some =

@@ -11,15 +11,16 @@ namespace heddle {
 
 /// A file that appears at its place whole or not at all.
 ///
-/// Bytes go to a temporary file in the same folder (a hidden name, the same suffix); `commit()` puts
-/// it in place. Destroyed without commit (an Error, Ctrl-C's Error{Cancelled}), it leaves no trace and
-/// the old file as it was. A place that is a device or pipe (/dev/stdout) is written to directly; a
-/// symbolic link keeps pointing at what it pointed at.
-/// Write with `write`, or hand `temp_path()` to a library that writes by path: not both.
+/// Bytes go to a temporary file in the same folder (a hidden name, the same suffix); `commit()`
+/// puts it in place. Destroyed without commit (an Error, Ctrl-C's Error{Cancelled}), it leaves no
+/// trace and the old file as it was. A place that is a device or pipe (/dev/stdout) is written to
+/// directly; a symbolic link keeps pointing at what it pointed at. Write with `write`, or hand
+/// `temp_path()` to a library that writes by path: not both.
 class OutputFile {
 public:
     /// Opens the temporary file.
-    /// @throws Error  NotFound: no such folder; CannotWrite: a directory, a read-only file or folder
+    /// @throws Error  NotFound: no such folder; CannotWrite: a directory, a read-only file or
+    /// folder
     explicit OutputFile(std::string path);
     ~OutputFile();
     OutputFile(const OutputFile&) = delete;
