@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace heddle {
+
+/// A file that appears at its place whole or not at all.
+///
+/// Bytes go to a temporary file in the same folder (a hidden name, the same suffix); `commit()`
+/// puts it in place. Destroyed without commit (an Error, Ctrl-C's Error{Cancelled}), it leaves no
+/// trace and the old file as it was. A place that is a device or pipe (/dev/stdout) is written to
+/// directly; a symbolic link keeps pointing at what it pointed at. Write with `write`, or hand
+/// `temp_path()` to a library that writes by path: not both.
+class OutputFile {
+public:
+    /// Opens the temporary file.
+    /// @throws Error  NotFound: no such folder; CannotWrite: a directory, a read-only file or
+    /// folder
+    explicit OutputFile(std::string path);
+    ~OutputFile();
+    OutputFile(const OutputFile&) = delete;
+    OutputFile& operator=(const OutputFile&) = delete;
+
+    [[nodiscard]] const std::string& path() const { return path_; }
+    /// Where the bytes are until commit: exists, is empty, and ends in the final path's suffix.
+    [[nodiscard]] const std::string& temp_path() const { return temp_path_; }
+
+    /// Appends bytes.
+    /// @throws Error  CannotWrite: full disk, failing disk
+    void write(const void* data, std::size_t bytes);
+    template <typename T>
+    void write_array(std::span<const T> values) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        write(values.data(), values.size_bytes());
+    }
+    /// Appends one number, little-endian.
+    template <typename T>
+    void write_value(T value) {
+        static_assert(std::is_arithmetic_v<T>);
+        write(&value, sizeof(T));
+    }
+
+    /// Flushes, waits until the disk has it, renames into place. Once, last.
+    /// @throws Error  CannotWrite; the old file is then untouched
+    void commit();
+
+private:
+    void flush();
+    void close_checked();
+    [[noreturn]] void fail(const char* doing, int error) const;
+
+    std::string path_;       ///< as the user named it, for messages
+    std::string final_path_; ///< with a symbolic link resolved
+    std::string temp_path_;
+    std::vector<char> buffer_;
+    int fd_ = -1;
+    bool in_place_ = false; ///< a device or pipe: no temporary file, nothing to rename
+    bool pending_ = false;  ///< the temporary file is there and must go
+};
+
+} // namespace heddle
