@@ -13,6 +13,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::uintmax_t kAlwaysFits =
+    1 << 26; // asking the system costs more than reading a small file
+
 struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
 };
@@ -46,7 +49,7 @@ std::vector<std::byte> read_bytes(const fs::path& path) {
     if (!file) fail(path, str("cannot be opened: ", std::strerror(errno)), "check its permissions");
     const std::uintmax_t size = fs::file_size(path, error);
     if (error) fail(path, str("has no size: ", error.message()), "check the disk");
-    const std::int64_t free_bytes = available_bytes();
+    const std::int64_t free_bytes = size < kAlwaysFits ? 0 : available_bytes();
     if (free_bytes > 0 && size > static_cast<std::uintmax_t>(free_bytes))
         throw Error(ErrorCode::OutOfMemory,
                     str("holds ", size, " bytes, and ", free_bytes, " bytes of memory are free"),

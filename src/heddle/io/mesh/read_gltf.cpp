@@ -15,6 +15,8 @@
 namespace heddle {
 namespace {
 
+constexpr double kAlwaysFits = 1 << 26; // bytes; asking the system costs more than a small mesh
+
 /// Every place where each mesh of the file stands, in the order of the node tree.
 using Placements = std::vector<std::vector<Placement>>;
 
@@ -229,6 +231,7 @@ private:
         const double bytes =
             static_cast<double>(places) * (static_cast<double>(local.positions.size()) * vertex +
                                            static_cast<double>(local.triangles.size()) * 12.0);
+        if (bytes < kAlwaysFits) return;
         const auto free_bytes = static_cast<double>(available_bytes());
         if (free_bytes > 0.0 && bytes > free_bytes)
             throw Error(ErrorCode::OutOfMemory,
