@@ -14,7 +14,7 @@ namespace heddle {
 
 /// Writes `parts` one after the other beside `path` and renames the result onto it, so that `path`
 /// holds the old bytes or all of the new ones, never a part.
-/// @throws BadFile where the folder cannot be written or the disk is full; the old file is untouched
+/// @throws BadFile where the folder cannot be written or the disk is full; the old file stays
 void replace_file(const std::filesystem::path& path,
                   std::span<const std::span<const std::byte>> parts);
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <memory>
 
-// The only place that compiles stb. Static, because other libraries of the process export their own.
+// The only place that compiles stb. Static, because libtinygltf brings a copy of its own.
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
 #define STBI_ONLY_PNG

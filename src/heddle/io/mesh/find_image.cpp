@@ -26,7 +26,8 @@ bool is_image_suffix(const fs::path& path) {
 fs::path same_stem(const fs::path& folder, const fs::path& stem) {
     std::vector<fs::path> found;
     std::error_code error;
-    for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const fs::path place = folder.empty() ? fs::path(".") : folder;
+    for (const auto& entry : fs::directory_iterator(place, error)) {
         if (entry.path().stem() == stem && is_image_suffix(entry.path()) && is_file(entry.path()))
             found.push_back(entry.path());
     }

@@ -143,21 +143,34 @@ std::string one_line(std::string text) {
 } // namespace
 
 GltfModel::GltfModel(const fs::path& path) : path_(path) {
-    const std::vector<std::byte> bytes = read_bytes(path);
+    parse(read_bytes(path));
+    for (const auto& buffer : model_.buffers) held_bytes_ += buffer.data.size();
+    for (const std::string& name : model_.extensionsRequired) {
+        if (name == "KHR_draco_mesh_compression" || name == "EXT_meshopt_compression")
+            throw Error(ErrorCode::Unsupported, str("its geometry is compressed by ", name),
+                        "export it without compression", {.path = path_.string()});
+    }
+}
+
+/// The JSON of a .gltf or .glb, after a check of the .glb's sizes.
+std::string_view GltfModel::json_in(std::span<const std::byte> bytes, bool binary) const {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (!binary) return text;
+    if (bytes.size() < 20) fail(str("has ", bytes.size(), " bytes, a .glb has 20 or more"));
+    if (u32_at(bytes, 8) != bytes.size())
+        fail(str("says ", u32_at(bytes, 8), " bytes and has ", bytes.size()));
+    if (u32_at(bytes, 12) > bytes.size() - 20)
+        fail(str("says ", u32_at(bytes, 12), " bytes of JSON and has ", bytes.size() - 20));
+    return text.substr(20, u32_at(bytes, 12));
+}
+
+void GltfModel::parse(std::span<const std::byte> bytes) {
     if (bytes.size() > std::numeric_limits<std::uint32_t>::max())
         fail(str("has ", bytes.size(), " bytes, glTF has fewer than 2^32"));
     const bool binary = bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
-    std::string_view json(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    if (binary) {
-        if (bytes.size() < 20) fail(str("has ", bytes.size(), " bytes, a .glb has 20 or more"));
-        if (u32_at(bytes, 8) != bytes.size())
-            fail(str("says ", u32_at(bytes, 8), " bytes and has ", bytes.size()));
-        if (u32_at(bytes, 12) > bytes.size() - 20)
-            fail(str("says ", u32_at(bytes, 12), " bytes of JSON and has ", bytes.size() - 20));
-        json = json.substr(20, u32_at(bytes, 12));
-    }
-    if (is_nested_too_deep(json)) fail(str("JSON is nested deeper than ", kMaxNesting, " levels"));
-    const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
+    if (is_nested_too_deep(json_in(bytes, binary)))
+        fail(str("JSON is nested deeper than ", kMaxNesting, " levels"));
+    const std::string folder = path_.has_parent_path() ? path_.parent_path().string() : ".";
     Files files{folder + "/"};
     tinygltf::TinyGLTF loader;
     loader.SetImageLoader(&keep_image, nullptr);
@@ -165,18 +178,12 @@ GltfModel::GltfModel(const fs::path& path) : path_(path) {
     std::string error;
     std::string warning;
     const auto size = static_cast<unsigned int>(bytes.size());
+    const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
+    const auto* text = reinterpret_cast<const char*>(bytes.data());
     const bool loaded =
-        binary ? loader.LoadBinaryFromMemory(&model_, &error, &warning,
-                                             reinterpret_cast<const unsigned char*>(bytes.data()),
-                                             size, folder)
-               : loader.LoadASCIIFromString(&model_, &error, &warning, json.data(), size, folder);
+        binary ? loader.LoadBinaryFromMemory(&model_, &error, &warning, data, size, folder)
+               : loader.LoadASCIIFromString(&model_, &error, &warning, text, size, folder);
     if (!loaded || !error.empty()) fail(one_line(error));
-    for (const auto& buffer : model_.buffers) held_bytes_ += buffer.data.size();
-    for (const std::string& name : model_.extensionsRequired) {
-        if (name == "KHR_draco_mesh_compression" || name == "EXT_meshopt_compression")
-            throw Error(ErrorCode::Unsupported, str("its geometry is compressed by ", name),
-                        "export it without compression", {.path = path_.string()});
-    }
 }
 
 void GltfModel::fail(const std::string& what) const {
@@ -187,10 +194,6 @@ const tinygltf::Accessor& GltfModel::accessor(int index) const {
     if (index < 0 || static_cast<std::size_t>(index) >= model_.accessors.size())
         fail(str("names accessor ", index, " of ", model_.accessors.size()));
     return model_.accessors[static_cast<std::size_t>(index)];
-}
-
-std::uint64_t GltfModel::count(int index) const {
-    return accessor(index).count;
 }
 
 std::span<const unsigned char> GltfModel::view(int index) const {

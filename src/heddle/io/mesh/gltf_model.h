@@ -1,11 +1,13 @@
 #pragma once
 
 #include <tiny_gltf.h>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace heddle {
@@ -19,10 +21,6 @@ public:
     [[nodiscard]] const tinygltf::Model& operator*() const { return model_; }
     [[nodiscard]] const tinygltf::Model* operator->() const { return &model_; }
     [[nodiscard]] std::filesystem::path folder() const { return path_.parent_path(); }
-
-    /// Elements of an accessor; -1 where there is no such accessor.
-    /// @throws BadFile
-    [[nodiscard]] std::uint64_t count(int accessor) const;
 
     /// Values of an accessor, element by element: floats as they are, normalized integers divided
     /// by their largest value, other integers converted; sparse parts put in.
@@ -45,6 +43,8 @@ public:
     [[noreturn]] void fail(const std::string& what) const;
 
 private:
+    [[nodiscard]] std::string_view json_in(std::span<const std::byte> bytes, bool binary) const;
+    void parse(std::span<const std::byte> bytes);
     const tinygltf::Accessor& accessor(int index) const;
     void
     put_sparse(const tinygltf::Accessor& from, int components, std::vector<float>& values) const;

@@ -30,7 +30,8 @@ namespace heddle {
 /// KHR_texture_transform, the albedo of KHR_materials_pbrSpecularGlossiness. Flat normals where the
 /// file has none (as glTF asks), tangents where the material needs them. A map whose image is
 /// missing or unreadable is dropped, or taken from a file of the same stem, with a note.
-/// @throws NotFound, BadFile; Unsupported for compressed geometry and past 256 materials; OutOfMemory
+/// @throws NotFound, BadFile; Unsupported for compressed geometry and past 256 materials;
+///         OutOfMemory
 [[nodiscard]] Geometry read_gltf(const std::filesystem::path& path);
 
 /// Makes `height` the height map of every material: a surface point moves along its normal by

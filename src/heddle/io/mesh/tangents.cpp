@@ -136,8 +136,8 @@ Vec3d project(Vec3d v, Vec3d normal) {
     return normalize(v - normal * dot(normal, v), Vec3d{});
 }
 
-/// A corner's part of its group's tangent: unit, times the angle of the triangle at the corner, both
-/// seen along the vertex normal.
+/// A corner's part of its group's tangent: unit, times the angle of the triangle at the corner,
+/// both seen along the vertex normal.
 Vec3d weighted_tangent(const Mesh& mesh,
                        const std::array<std::uint32_t, 3>& corners,
                        std::uint32_t k,

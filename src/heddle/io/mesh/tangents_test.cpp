@@ -61,15 +61,14 @@ TEST(Tangents, AMirrorSeamSplitsItsVertices) {
 }
 
 TEST(Tangents, AreWeightedByTheAngleAtTheVertex) {
-    // Two triangles meet at the origin with 90 and 45 degrees; their u axes are x and y.
+    // Two triangles meet at the origin with 90 and 45 degrees; their tangents differ by 45 degrees.
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 1, 0}};
     mesh.normals.assign(4, kUp);
     mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-    // first: u = x, v = -y; second shares uv at vertices 0 and 2 (0,0), (0,-1): so u = a x there
+    // first: u = x, v = -y; the second shares the uv of the edge between them
     mesh.uvs = {{0, 0}, {1, 0}, {0, -1}, {-1, -2}};
-    // second: at p3 = (-1, 1): u = -1, v = -2 => du/dx = 1, du/dy = 0; v = x - y: along u at constant v
-    // is (1, 1) / sqrt 2
+    // second: u = x, v = x - y: along u at constant v is (1, 1) / sqrt 2
     set_tangents(mesh);
     const double a = std::numbers::pi / 2.0;
     const double b = std::numbers::pi / 4.0;

@@ -50,8 +50,8 @@ inline std::string error_of(const std::function<void()>& call) {
     return "no error";
 }
 
-/// Calls `read` on every beginning of `whole`, the empty one included, and on `whole` with one bit of
-/// each byte turned; anything but a result or an Error ends the test.
+/// Calls `read` on every beginning of `whole`, the empty one included, and on `whole` with one
+/// bit of each byte turned; anything but a result or an Error ends the test.
 /// @return how many beginnings were read without an Error
 inline int read_damaged(const std::string& whole,
                         const std::function<void(const std::string&)>& read) {
