@@ -1,0 +1,188 @@
+#include <heddle/io/mesh/obj_text.h>
+
+#include <heddle/base/error.h>
+#include <heddle/io/image/file_bytes.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string_view>
+
+namespace heddle {
+namespace {
+
+constexpr std::string_view kBlank = " \t\r";
+constexpr int kMaxCorners = 4096; // cutting a polygon takes time quadratic in its corners
+
+std::string_view next_token(std::string_view& rest) {
+    const std::size_t start = std::min(rest.find_first_not_of(kBlank), rest.size());
+    rest.remove_prefix(start);
+    const std::size_t size = std::min(rest.find_first_of(kBlank), rest.size());
+    const std::string_view token = rest.substr(0, size);
+    rest.remove_prefix(size);
+    return token;
+}
+
+bool is_finite_number(std::string_view token) {
+    if (!token.empty() && token.front() == '+') token.remove_prefix(1);
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), value);
+    return error == std::errc{} && end == token.data() + token.size() &&
+           std::abs(value) <= double{std::numeric_limits<float>::max()};
+}
+
+class ObjChecker {
+public:
+    explicit ObjChecker(std::string path) : path_(std::move(path)) {}
+
+    /// True where the statement is one that the parser should see.
+    bool accept(std::string_view statement, std::int64_t line) {
+        line_ = line;
+        std::string_view rest = statement;
+        const std::string_view keyword = next_token(rest);
+        if (keyword == "v") return check_numbers(rest, kPosition, 3);
+        if (keyword == "vt") return check_numbers(rest, kUv, 1);
+        if (keyword == "vn") return check_numbers(rest, kNormal, 3);
+        if (keyword == "f") return check_corners(rest, "face", 3);
+        if (keyword == "l") return check_corners(rest, "line", 2);
+        if (keyword == "mtllib") {
+            const std::size_t start = std::min(rest.find_first_not_of(kBlank), rest.size());
+            libraries.emplace_back(rest.substr(start, rest.find_last_not_of(kBlank) + 1 - start));
+        }
+        return keyword == "usemtl";
+    }
+
+    /// Indices that count from the start may name what comes later: looked at when all is read.
+    void finish() {
+        for (std::size_t kind = 0; kind < 3; ++kind) {
+            if (largest_[kind].index <= count_[kind]) continue;
+            line_ = largest_[kind].line;
+            fail(str("names ", kNames[kind], " ", largest_[kind].index, " of ", count_[kind]));
+        }
+    }
+
+    std::vector<std::string> libraries;
+
+private:
+    enum Kind : std::size_t { kPosition, kUv, kNormal };
+    static constexpr std::array<const char*, 3> kNames{"vertex", "uv", "normal"};
+    struct Largest {
+        std::int64_t index = 0;
+        std::int64_t line = 0;
+    };
+
+    [[noreturn]] void fail(const std::string& what) const {
+        throw Error(ErrorCode::BadFile, what, "export the file again",
+                    {.path = path_, .line = line_});
+    }
+
+    bool check_numbers(std::string_view rest, Kind kind, int needed) {
+        ++count_[kind];
+        for (int i = 0; i < needed; ++i) {
+            const std::string_view token = next_token(rest);
+            if (!is_finite_number(token))
+                fail(str(kNames[kind], " ", count_[kind], " has '", token.substr(0, 40), "' where ",
+                         "a finite number must stand"));
+        }
+        return true;
+    }
+
+    bool check_corners(std::string_view rest, const char* what, int needed) {
+        int corners = 0;
+        for (std::string_view token = next_token(rest); !token.empty(); token = next_token(rest)) {
+            check_corner(token, what);
+            ++corners;
+        }
+        if (corners < needed || corners > kMaxCorners)
+            fail(str("a ", what, " has ", corners, " corners, allowed are ", needed, " to ",
+                     kMaxCorners));
+        return true;
+    }
+
+    /// `v`, `v/vt`, `v//vn` or `v/vt/vn`
+    void check_corner(std::string_view token, const char* what) {
+        const char* at = token.data();
+        const char* const end = at + token.size();
+        for (std::size_t kind = 0; kind < 3; ++kind) {
+            if (kind == kUv && at < end && *at == '/') {
+                ++at;
+                continue;
+            }
+            std::int64_t index = 0;
+            const auto [stop, error] = std::from_chars(at, end, index);
+            if (error != std::errc{} || index == 0 ||
+                std::abs(index) > std::numeric_limits<std::int32_t>::max())
+                fail(str("a ", what, " has the corner '", token.substr(0, 40), "', which names no ",
+                         kNames[kind]));
+            note_index(kind, index);
+            if (stop == end) return;
+            if (*stop != '/') break;
+            at = stop + 1;
+            if (at == end) return; // `1/` and `1/2/` are seen in the wild
+        }
+        fail(str("a ", what, " has the corner '", token.substr(0, 40), "', expected v/vt/vn"));
+    }
+
+    void note_index(std::size_t kind, std::int64_t index) {
+        if (index < 0 && -index > count_[kind])
+            fail(str("names ", kNames[kind], " ", index, ", and only ", count_[kind],
+                     " stand before it"));
+        if (index > largest_[kind].index) largest_[kind] = {index, line_};
+    }
+
+    std::string path_;
+    std::int64_t line_ = 0;
+    std::array<std::int64_t, 3> count_{};
+    std::array<Largest, 3> largest_{};
+};
+
+/// End of the statement that begins at `start`; a backslash joins the next line to it.
+std::size_t statement_end(std::string& text, std::size_t start, std::int64_t& line) {
+    std::size_t end = start;
+    while (true) {
+        const std::size_t part = end;
+        end = text.find('\n', part);
+        ++line;
+        std::size_t last = end;
+        if (last > part && text[last - 1] == '\r') --last;
+        if (last == part || text[last - 1] != '\\' || end + 1 == text.size()) return end;
+        for (std::size_t i = last - 1; i <= end; ++i) text[i] = ' ';
+        ++end;
+    }
+}
+
+} // namespace
+
+ObjText read_obj_text(const std::filesystem::path& path) {
+    std::string text;
+    {
+        const std::vector<std::byte> bytes = read_bytes(path);
+        text.assign(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+        text.push_back('\n'); // every statement now ends with one
+    }
+    if (const std::size_t zero = text.find('\0'); zero != std::string::npos)
+        throw Error(ErrorCode::BadFile, "a zero byte stands in it, an .obj file is text",
+                    "check what kind of file it is",
+                    {.path = path.string(), .offset = static_cast<std::int64_t>(zero)});
+    ObjChecker checker(path.string());
+    std::size_t kept = 0; // what is kept moves to the front of the same text
+    std::int64_t line = 0;
+    for (std::size_t start = 0; start < text.size();) {
+        const std::int64_t first_line = line + 1;
+        const std::size_t end = statement_end(text, start, line);
+        if (checker.accept(std::string_view(text).substr(start, end - start), first_line)) {
+            std::memmove(text.data() + kept, text.data() + start, end - start);
+            kept += end - start;
+            text[kept++] = '\n';
+        }
+        start = end + 1;
+    }
+    checker.finish();
+    text.resize(kept);
+    return {std::move(text), std::move(checker.libraries)};
+}
+
+} // namespace heddle

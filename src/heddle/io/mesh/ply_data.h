@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace heddle {
+
+enum class PlyFormat : std::uint8_t { Ascii, LittleEndian, BigEndian };
+enum class PlyType : std::uint8_t { I8, U8, I16, U16, I32, U32, F32, F64 };
+
+struct PlyProperty {
+    std::string name;
+    PlyType type = PlyType::F32;
+    bool is_list = false;
+    PlyType count_type = PlyType::U8; ///< of a list's length
+};
+
+struct PlyElement {
+    std::string name;
+    std::uint64_t count = 0;
+    std::vector<PlyProperty> properties;
+
+    /// Index of the first property of one of these names; -1: there is none.
+    [[nodiscard]] int find(std::initializer_list<const char*> names) const;
+};
+
+/// A .ply file: its header, and its values one after the other whatever their encoding.
+///
+/// Debian packages no small PLY library, and Assimp (which reads PLY) drops edges and would add
+/// 100 MB of dependencies for one page of code.
+class PlyData {
+public:
+    /// Reads the file and its header.
+    /// @throws NotFound, BadFile
+    explicit PlyData(const std::filesystem::path& path);
+
+    [[nodiscard]] const std::vector<PlyElement>& elements() const { return elements_; }
+
+    /// The next value; a double holds each of the eight types exactly.
+    /// @throws BadFile where the file ends or the text is no number
+    double next(PlyType type);
+
+    /// Length of the list that starts here, checked against what is left of the file.
+    std::uint64_t next_count(const PlyProperty& property);
+
+    /// Passes over a property's value.
+    void skip(const PlyProperty& property);
+
+    /// Checks that the rows of `element` can be in what is left of the file.
+    void check_rows(const PlyElement& element) const;
+
+    /// Throws BadFile with the present place.
+    [[noreturn]] void fail(const std::string& what) const;
+
+private:
+    void read_header();
+    void read_header_line(const std::string& line);
+    double next_number();
+    [[nodiscard]] std::uint64_t least_bytes(PlyType type) const;
+
+    std::string path_;
+    std::vector<std::byte> bytes_;
+    std::size_t at_ = 0;
+    PlyFormat format_ = PlyFormat::Ascii;
+    bool has_format_ = false;
+    std::vector<PlyElement> elements_;
+};
+
+} // namespace heddle
