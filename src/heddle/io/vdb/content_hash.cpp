@@ -55,10 +55,10 @@ std::string value_type(const std::string& tree_type) {
 } // namespace
 
 std::vector<GridSummary> summarize_vdb(const std::string& path) {
-    const VdbReader file(path);
     std::vector<GridSummary> out;
-    for (const GridEntry& entry : file.entries()) {
-        const GridLeaves grid = file.read(entry.name);
+    const VdbContents file = read_contents(path);
+    for (const GridEntry& entry : file.grids) {
+        const GridLeaves grid = read_grid(path, entry);
         out.push_back({entry.name, value_type(entry.type), static_cast<std::int64_t>(grid.size()),
                        entry.end - entry.begin, hash_voxels(grid, hash_text(entry.name))});
     }

@@ -16,7 +16,7 @@ struct GridSummary {
 };
 
 /// The grids of a .vdb in the file's order, each read back whole and one at a time.
-/// @throws Error  as read_grid_entries; BadFile: damaged; Unsupported: a value type not named above
+/// @throws Error  as read_contents; BadFile: damaged; Unsupported: a value type not named above
 [[nodiscard]] std::vector<GridSummary> summarize_vdb(const std::string& path);
 
 /// 16 hex digits over all voxels of the grids: name, index and value of every active voxel. Neither the

@@ -57,12 +57,12 @@ struct LobeGrids {
 
 class Assembler {
 public:
-    Assembler(const std::string& path, const VdbReader& file) : path_(path), file_(file) {}
+    Assembler(const std::string& path, const VdbContents& file) : path_(path), file_(file) {}
 
     std::unique_ptr<VoxelGrid> run() {
         check_format();
         auto grid = std::make_unique<VoxelGrid>();
-        const auto text = [&](const char* name) { return file_.metadata().at(name); };
+        const auto text = [&](const char* name) { return file_.metadata.at(name); };
         grid->about = info_from_json({text(kInfoKey), text(kMaterialsKey), text(kYarnsKey)}, path_);
         info_ = &grid->about;
         read_grids(grid->about);
@@ -76,16 +76,18 @@ private:
         throw Error(ErrorCode::BadFile, what, "write it again with heddle", {.path = path_});
     }
 
-    [[nodiscard]] bool has(const std::string& name) const {
-        return std::any_of(file_.entries().begin(), file_.entries().end(),
-                           [&](const GridEntry& e) { return e.name == name; });
+    [[nodiscard]] const GridEntry* find(const std::string& name) const {
+        const auto at = std::find_if(file_.grids.begin(), file_.grids.end(),
+                                     [&](const GridEntry& e) { return e.name == name; });
+        return at == file_.grids.end() ? nullptr : &*at;
     }
+    [[nodiscard]] bool has(const std::string& name) const { return find(name) != nullptr; }
 
     void check_format() const {
-        const auto& meta = file_.metadata();
+        const auto& meta = file_.metadata;
         if (!meta.contains(kFormatKey)) {
             std::string list;
-            for (const GridEntry& e : file_.entries()) {
+            for (const GridEntry& e : file_.grids) {
                 list += str(list.empty() ? "" : ", ", "'", e.name, "' (", e.type, ")");
             }
             throw Error(
@@ -106,8 +108,9 @@ private:
 
     GridLeaves read(GridKind kind, std::size_t k, std::size_t value_bytes) const {
         const std::string name = grid_name(kind, static_cast<int>(k));
-        if (!has(name)) fail(str("grid '", name, "' is missing"));
-        GridLeaves grid = file_.read(name);
+        const GridEntry* entry = find(name);
+        if (entry == nullptr) fail(str("grid '", name, "' is missing"));
+        GridLeaves grid = read_grid(path_, *entry);
         if (grid.value_bytes != value_bytes) {
             fail(str("grid '", name, "' has values of ", grid.value_bytes,
                      " bytes (needed: ", value_bytes, ")"));
@@ -242,7 +245,7 @@ private:
     }
 
     const std::string& path_;
-    const VdbReader& file_;
+    const VdbContents& file_;
     const VoxelGridInfo* info_ = nullptr;
     GridLeaves coverage_;
     std::vector<LobeGrids> lobes_;
@@ -252,7 +255,7 @@ private:
 } // namespace
 
 std::unique_ptr<VoxelGrid> read_vdb(const std::string& path) {
-    const VdbReader file(path);
+    const VdbContents file = read_contents(path);
     return Assembler(path, file).run();
 }
 

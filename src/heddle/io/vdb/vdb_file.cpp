@@ -96,13 +96,21 @@ void skip_head(Cursor& in, const std::string& path) {
     in.skip(36, "the UUID");
 }
 
-void skip_metadata(Cursor& in) {
+std::map<std::string, std::string> read_metadata(Cursor& in) {
+    std::map<std::string, std::string> out;
     const auto n = in.read<std::uint32_t>("the metadata count");
     for (std::uint32_t i = 0; i < n; ++i) {
-        (void)in.read_string("a metadata name");
-        (void)in.read_string("a metadata type");
-        in.skip(in.read<std::uint32_t>("a metadata size"), "a metadata value");
+        const std::string name = in.read_string("a metadata name");
+        const std::string type = in.read_string("a metadata type");
+        const std::string value = in.read_string("a metadata value");
+        if (type == "string") out[name] = value;
+        if (type == "int32" && value.size() == sizeof(std::int32_t)) {
+            std::int32_t number = 0;
+            std::memcpy(&number, value.data(), sizeof(number));
+            out[name] = std::to_string(number);
+        }
     }
+    return out;
 }
 
 GridEntry read_entry(Cursor& in) {
@@ -114,9 +122,9 @@ GridEntry read_entry(Cursor& in) {
     grid.begin = in.read<std::int64_t>("a grid's offset");
     grid.buffers = in.read<std::int64_t>("a grid's offset");
     grid.end = in.read<std::int64_t>("a grid's offset");
+    if (!parent.empty()) in.fail(str("grid '", grid.name, "' shares the tree of '", parent, "'"));
     const bool ordered =
-        grid.begin == in.at() && grid.end >= grid.begin &&
-        (!parent.empty() || (grid.buffers >= grid.begin && grid.end >= grid.buffers));
+        grid.begin == in.at() && grid.buffers >= grid.begin && grid.end >= grid.buffers;
     if (!ordered) in.fail(str("grid '", grid.name, "' has offsets out of order"));
     in.skip(grid.end - grid.begin, "a grid");
     return grid;
@@ -124,17 +132,17 @@ GridEntry read_entry(Cursor& in) {
 
 } // namespace
 
-std::vector<GridEntry> read_grid_entries(const std::string& path) {
+VdbContents read_contents(const std::string& path) {
     Cursor in(path);
     skip_head(in, path);
-    skip_metadata(in);
+    VdbContents out;
+    out.metadata = read_metadata(in);
     const auto n = in.read<std::int32_t>("the grid count");
-    std::vector<GridEntry> grids;
-    for (std::int32_t i = 0; i < n; ++i) grids.push_back(read_entry(in));
+    for (std::int32_t i = 0; i < n; ++i) out.grids.push_back(read_entry(in));
     if (in.at() != in.size()) {
         in.fail(str(in.size() - in.at(), " bytes follow the last grid (allowed: 0)"));
     }
-    return grids;
+    return out;
 }
 
 } // namespace heddle

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -15,10 +16,16 @@ struct GridEntry {
     std::int64_t end = 0;     ///< one past its last byte
 };
 
+/// What a .vdb says of itself before its first grid's voxels.
+struct VdbContents {
+    std::map<std::string, std::string> metadata; ///< of the file: strings, and int32 in decimal
+    std::vector<GridEntry> grids;                ///< in the file's order
+};
+
 /// Reads a .vdb's table of contents and checks that every grid lies inside the file and that the
-/// file ends with the last one: what OpenVDB trusts, and a truncated file breaks.
+/// file ends with the last one.
 /// @throws Error  NotFound: no such file or not readable; BadFile: not a VDB, truncated, extra bytes;
-///                Unsupported: older than OpenVDB 3, or written without a table of contents
-[[nodiscard]] std::vector<GridEntry> read_grid_entries(const std::string& path);
+///                Unsupported: older than OpenVDB 2, or written without a table of contents
+[[nodiscard]] VdbContents read_contents(const std::string& path);
 
 } // namespace heddle

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <heddle/base/parallel.h>
 #include <heddle/base/random.h>
 #include <heddle/sggx/principal.h>
 #include <heddle/voxel/voxel_grid.h>
@@ -146,6 +147,58 @@ inline VoxelGrid make_helix(double big = 40.0, double thin = 6.0, int turns = 3)
         grid.about.materials.push_back(m);
     }
     grid.blocks = make_blocks(voxels);
+    count_voxels(grid);
+    return grid;
+}
+
+/// Two leaves of cloth thick, 4 x 4 leaves wide: 37 % of each active, directions that wander.
+inline VoxelBlock make_cloth_block(int bx, int bz, int side, std::uint64_t seed) {
+    VoxelBlock block;
+    for (int x = 0; x < 4; ++x) {
+        for (int y = 0; y < 2; ++y) { // two leaves thick
+            for (int z = 0; z < 4; ++z) {
+                VoxelLeaf leaf;
+                leaf.origin = {(bx - side / 2) * 32 + x * 8, y * 8, (bz - side / 2) * 32 + z * 8};
+                leaf.first_voxel = static_cast<std::uint32_t>(block.coverage.size());
+                leaf.first_lobe = static_cast<std::uint32_t>(block.lobes.size());
+                CounterRandom random{seed,
+                                     hash64(1, static_cast<std::uint64_t>(leaf.origin.x),
+                                            static_cast<std::uint64_t>(leaf.origin.z * 64 + y))};
+                const float centre = 2.0f + 4.0f * random.uniform();
+                const float angle = 6.28f * random.uniform();
+                for (int i = 0; i < 512; ++i) {
+                    const float across = static_cast<float>((i >> 3) & 7) - centre;
+                    if (across * across + random.uniform() * 2.0f > 3.2f) continue;
+                    leaf.active[static_cast<std::size_t>(i >> 6)] |= std::uint64_t{1} << (i & 63);
+                    const float turn = angle + 0.4f * random.uniform();
+                    const Vec3f d = normalize(Vec3f{std::cos(turn), 0.3f * across, std::sin(turn)});
+                    const auto c = [&] {
+                        return static_cast<std::uint16_t>(
+                            65535 * (static_cast<int>(random.uniform() * 65.0f)) / 64);
+                    };
+                    push_voxel(block, {c(), c(), c(), c()}, {{needle(d), 255, 0}});
+                }
+                block.leaves.push_back(leaf);
+            }
+        }
+    }
+    return block;
+}
+
+/// A sheet of about `voxels` voxels in blocks of 32 x 16 x 32.
+inline VoxelGrid make_cloth(double voxels) {
+    VoxelGrid grid;
+    grid.about.name = "cloth";
+    Material m;
+    m.kind = MaterialKind::Fiber;
+    grid.about.materials.push_back(m);
+    const double per_block = static_cast<double>(make_cloth_block(0, 0, 1, 1).coverage.size());
+    const int side = static_cast<int>(std::sqrt(voxels / per_block)) + 1;
+    grid.blocks.resize(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+    parallel_chunks(grid.blocks.size(), 1, [&](std::size_t i, std::size_t) {
+        const int n = static_cast<int>(i);
+        grid.blocks[i] = make_cloth_block(n / side, n % side, side, 5);
+    });
     count_voxels(grid);
     return grid;
 }
