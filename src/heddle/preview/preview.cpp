@@ -220,7 +220,9 @@ private:
                         s.weight;
         const float depth = heddle::length(k) * (preview::kMaxDepth / 255.0f);
         const float hidden = s.through * (1.0f - std::exp(-depth * length));
-        s.color = s.color + shade(v, leaf) * hidden;
+        // the light stands at the eye: what lies behind other voxels is in their shadow
+        const float light = options_.color == PreviewColor::Albedo ? 0.5f + 0.5f * s.through : 1.0f;
+        s.color = s.color + shade(v, leaf) * (hidden * light);
         s.through -= hidden;
     }
 
