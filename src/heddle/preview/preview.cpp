@@ -244,8 +244,8 @@ private:
         return {};
     }
 
-    /// A light at the eye: sin to a fiber's tangent [Kajiya 1989], |cos| to a normal; both less for wide
-    /// lobes, and a highlight on what is narrow.
+    /// A light at the eye: sin to a fiber's tangent [Kajiya 1989], |cos| to a normal; both less for
+    /// wide lobes, and a highlight on what is narrow.
     [[nodiscard]] Vec3f lit(const Voxel& v, Vec3f axis) const {
         const Vec3f root{static_cast<float>(v.color[0]) / 255.0f,
                          static_cast<float>(v.color[1]) / 255.0f,

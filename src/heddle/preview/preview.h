@@ -37,13 +37,13 @@ struct PreviewImage {
     std::vector<std::uint8_t> rgba; ///< width x height x 4, rows from the top
 };
 
-/// A picture of the voxels that fits them to the frame, on the CPU and without a window. For looking,
-/// not for measuring.
+/// A picture of the voxels that fits them to the frame, on the CPU and without a window. For
+/// looking, not for measuring.
 ///
-/// Each ray steps through occupied leaves and their voxels, front to back. A voxel that the ray crosses
-/// over the length s lets exp(-k s) through, k^2 = sum (d_a k_a)^2 with k_a = -ln(1 - c_a) / h_a: exact along the
-/// axes, for what looks the same from all sides, and for surfaces across an axis.
-/// Memory: 12 bytes a voxel and 170 bytes a leaf.
+/// Each ray steps through occupied leaves and their voxels, front to back. A voxel that the ray
+/// crosses over the length s lets exp(-k s) through, k^2 = sum (d_a k_a)^2 with k_a = -ln(1 - c_a)
+/// / h_a: exact along the axes, for what looks the same from all sides, and for surfaces across an
+/// axis. Memory: 12 bytes a voxel and 170 bytes a leaf.
 /// @throws Error  InvalidArgument: a size, direction or angle out of range; Cancelled
 [[nodiscard]] PreviewImage
 render_preview(const VoxelSource& source, const PreviewOptions& options, Progress& progress);

@@ -16,8 +16,8 @@ namespace heddle {
 
 /// Unit eigenvector of S's largest eigenvalue, its last component that is not zero positive.
 ///
-/// Squares S until it is of rank one: + and * only, so that the bits are the same everywhere. Where the
-/// two largest eigenvalues agree, a unit vector of the plane that they span.
+/// Squares S until it is of rank one: + and * only, so that the bits are the same everywhere. Where
+/// the two largest eigenvalues agree, a unit vector of the plane that they span.
 /// @param S  positive semi-definite; all zero gives z
 [[nodiscard]] HEDDLE_HD inline Vec3f principal_direction(SymmetricMatrix S) {
     float trace = S.xx + S.yy + S.zz;

@@ -108,8 +108,8 @@ inline void count_voxels(VoxelGrid& grid) {
     }
 }
 
-/// A helix of a solid tube about the y axis: `turns` turns, radius `big`, tube radius `thin`, voxels.
-/// Coverage fades over the tube's last voxel; lobes are needles along the helix.
+/// A helix of a solid tube about the y axis: `turns` turns, radius `big`, tube radius `thin`,
+/// voxels. Coverage fades over the tube's last voxel; lobes are needles along the helix.
 inline VoxelGrid make_helix(double big = 40.0, double thin = 6.0, int turns = 3) {
     VoxelMap voxels;
     const double pitch = 3.5 * thin;

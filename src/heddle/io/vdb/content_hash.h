@@ -19,8 +19,8 @@ struct GridSummary {
 /// @throws Error  as read_contents; BadFile: damaged; Unsupported: a value type not named above
 [[nodiscard]] std::vector<GridSummary> summarize_vdb(const std::string& path);
 
-/// 16 hex digits over all voxels of the grids: name, index and value of every active voxel. Neither the
-/// order of grids or voxels nor compression, UUID or metadata show.
+/// 16 hex digits over all voxels of the grids: name, index and value of every active voxel. Neither
+/// the order of grids or voxels nor compression, UUID or metadata show.
 /// @param grids  of summarize_vdb
 [[nodiscard]] std::string content_hash(const std::vector<GridSummary>& grids);
 

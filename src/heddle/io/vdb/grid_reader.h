@@ -29,11 +29,12 @@ struct GridLeaves {
 
 /// Reads one grid: the reverse of grid_writer.h, on all threads.
 ///
-/// OpenVDB's own reader builds trees and trusts what it reads (a flipped bit can write past a buffer
-/// or loop for minutes), so only the decompression of a chunk whose size was checked is left to it.
+/// OpenVDB's own reader builds trees and trusts what it reads (a flipped bit can write past a
+/// buffer or loop for minutes), so only the decompression of a chunk whose size was checked is left
+/// to it.
 /// @param entry   of read_contents(path)
-/// @throws Error  BadFile: damaged, or active tiles; Unsupported: a value type or a compression that
-///                Heddle does not write
+/// @throws Error  BadFile: damaged, or active tiles; Unsupported: a value type or a compression
+///                that Heddle does not write
 [[nodiscard]] GridLeaves read_grid(const std::string& path, const GridEntry& entry);
 
 } // namespace heddle

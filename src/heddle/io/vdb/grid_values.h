@@ -27,7 +27,8 @@ template <typename Integer, typename T>
     return out;
 }
 
-/// Mean over the axes of -ln(1 - c_a) / h_a, c_a at most 1 - 1 / (2 columns): extinction per scene unit.
+/// Mean over the axes of -ln(1 - c_a) / h_a, c_a at most 1 - 1 / (2 columns): extinction per scene
+/// unit.
 struct DensityValues {
     using Value = float;
     std::vector<double> depth; ///< -ln(1 - c), by coverage
@@ -111,7 +112,8 @@ struct AnisoValues : OfLobe {
     }
 };
 
-/// Calls put(x, bit, v, l) for each voxel of the leaf that is active in the grid, in the leaf's order.
+/// Calls put(x, bit, v, l) for each voxel of the leaf that is active in the grid, in the leaf's
+/// order.
 template <typename Values, typename Put>
 void for_each_active(const VoxelBlock& block,
                      const VoxelLeaf& leaf,

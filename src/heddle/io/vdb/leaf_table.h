@@ -38,8 +38,8 @@ struct LeafTable {
     return {i.x & mask, i.y & mask, i.z & mask};
 }
 
-/// Position of voxel index `i`'s child in a node of 2^`node_bits` voxels per axis, whose children have
-/// 2^`child_bits`: x slowest, as VDB numbers them.
+/// Position of voxel index `i`'s child in a node of 2^`node_bits` voxels per axis, whose children
+/// have 2^`child_bits`: x slowest, as VDB numbers them.
 [[nodiscard]] constexpr std::uint32_t child_offset(Vec3i i, int node_bits, int child_bits) {
     const int width = node_bits - child_bits;
     const auto part = [&](std::int32_t v) {

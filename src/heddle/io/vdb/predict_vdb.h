@@ -12,8 +12,9 @@ struct VdbBytes {
     std::int64_t file = 0;   ///< at most, as long as values do not grow in compression
 };
 
-/// Predicts what write_vdb takes: a table of 88 bytes a leaf (twice while it is gathered from threads, or
-/// while a grid lacks some voxels), one batch of encoded leaves and the stream; no tree.
+/// Predicts what write_vdb takes: a table of 88 bytes a leaf (twice while it is gathered from
+/// threads, or while a grid lacks some voxels), one batch of encoded leaves and the stream; no
+/// tree.
 /// @param leaves  of 8^3 voxels with at least one active
 /// @param voxels  active ones
 /// @param lobes   of all voxels; >= voxels

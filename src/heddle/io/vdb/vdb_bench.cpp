@@ -13,8 +13,9 @@
 #include <filesystem>
 #include <string>
 
-// heddle_io_vdb_bench MILLION_VOXELS [OUT.vdb]: seconds and bytes of writing and reading back voxels
-// like those of a cloth: a sheet of leaves, 35 % of each active, fiber directions that wander.
+// heddle_io_vdb_bench MILLION_VOXELS [OUT.vdb]: seconds and bytes of writing and reading back
+// voxels like those of a cloth: a sheet of leaves, 35 % of each active, fiber directions that
+// wander.
 
 namespace heddle {
 namespace {

@@ -38,7 +38,8 @@ protected:
     Progress progress_;
 };
 
-/// 1 to 3 lobes, two kinds of material, all fields, negative indices and several nodes of each size.
+/// 1 to 3 lobes, two kinds of material, all fields, negative indices and several nodes of each
+/// size.
 VoxelGrid make_mixed(int block_voxels = 32) {
     testing::VoxelMap voxels;
     CounterRandom random{3, 1};
