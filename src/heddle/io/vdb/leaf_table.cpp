@@ -1,0 +1,119 @@
+#include <heddle/base/error.h>
+#include <heddle/base/parallel.h>
+#include <heddle/io/vdb/leaf_table.h>
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <tuple>
+
+namespace heddle {
+namespace {
+
+LeafTable empty_table() {
+    LeafTable table;
+    constexpr std::int32_t kMax = std::numeric_limits<std::int32_t>::max();
+    table.lo = {kMax, kMax, kMax};
+    table.hi = {-kMax, -kMax, -kMax};
+    return table;
+}
+
+void grow(LeafTable& table, Vec3i lo, Vec3i hi) {
+    for (int a = 0; a < 3; ++a) {
+        table.lo[a] = std::min(table.lo[a], lo[a]);
+        table.hi[a] = std::max(table.hi[a], hi[a]);
+    }
+}
+
+void grow(LeafTable& table, const VoxelLeaf& leaf) {
+    std::uint64_t any = 0;
+    for (int x = 0; x < 8; ++x) {
+        const std::uint64_t w = leaf.active[static_cast<std::size_t>(x)];
+        any |= w;
+        if (w == 0) continue;
+        table.lo.x = std::min(table.lo.x, leaf.origin.x + x);
+        table.hi.x = std::max(table.hi.x, leaf.origin.x + x);
+    }
+    for (int y = 0; y < 8; ++y) {
+        const std::uint64_t row = (any >> (8 * y)) & 0xff;
+        if (row == 0) continue;
+        const int z_lo = std::countr_zero(row);
+        const int z_hi = 63 - std::countl_zero(row);
+        grow(table, {table.lo.x, leaf.origin.y + y, leaf.origin.z + z_lo},
+             {table.hi.x, leaf.origin.y + y, leaf.origin.z + z_hi});
+    }
+}
+
+void add_leaf(LeafTable& table,
+              const VoxelBlock& block,
+              const VoxelLeaf& leaf,
+              const std::vector<Material>& materials) {
+    const std::size_t end = std::size_t{leaf.first_voxel} + leaf.voxel_count();
+    if (end > block.coverage.size() || end > block.lobe_count.size()) {
+        throw Error(ErrorCode::Internal, "write vdb: a leaf names voxels that its block lacks");
+    }
+    std::size_t l = leaf.first_lobe;
+    for (std::size_t v = leaf.first_voxel; v < end; ++v) {
+        const std::uint8_t n = block.lobe_count[v];
+        if (n == 0 || l + n > block.lobes.size() || block.lobes[l].material >= materials.size()) {
+            throw Error(ErrorCode::Internal, "write vdb: a voxel without lobe or material");
+        }
+        const bool fiber = materials[block.lobes[l].material].kind == MaterialKind::Fiber;
+        ++(fiber ? table.fiber_voxels : table.surface_voxels);
+        table.most_lobes = std::max<std::int32_t>(table.most_lobes, n);
+        table.lobe_count += n;
+        l += n;
+    }
+    table.voxel_count += static_cast<std::int64_t>(end - leaf.first_voxel);
+    grow(table, leaf);
+}
+
+LeafTable combine(LeafTable a, const LeafTable& b) {
+    a.leaves.insert(a.leaves.end(), b.leaves.begin(), b.leaves.end());
+    grow(a, b.lo, b.hi);
+    a.voxel_count += b.voxel_count;
+    a.lobe_count += b.lobe_count;
+    a.most_lobes = std::max(a.most_lobes, b.most_lobes);
+    a.fiber_voxels += b.fiber_voxels;
+    a.surface_voxels += b.surface_voxels;
+    return a;
+}
+
+auto tree_order(const LeafRef& ref) {
+    const Vec3i root = node_origin(ref.origin, 12);
+    return std::tuple(root.x, root.y, root.z, child_offset(ref.origin, 12, 7),
+                      child_offset(ref.origin, 7, 3));
+}
+
+} // namespace
+
+LeafTable make_leaf_table(const VoxelSource& source, const Progress& progress) {
+    const std::vector<Material>& materials = source.info().materials;
+    const auto walk = [&](std::size_t begin, std::size_t end) {
+        LeafTable part = empty_table();
+        VoxelBlock scratch;
+        for (std::size_t b = begin; b < end; ++b) {
+            progress.check();
+            const VoxelBlock& block = source.block(b, scratch);
+            for (std::size_t i = 0; i < block.leaves.size(); ++i) {
+                const VoxelLeaf& leaf = block.leaves[i];
+                if (leaf.voxel_count() == 0) continue;
+                part.leaves.push_back({leaf.origin, static_cast<std::uint32_t>(b),
+                                       static_cast<std::uint32_t>(i), leaf.active});
+                add_leaf(part, block, leaf, materials);
+            }
+        }
+        return part;
+    };
+    LeafTable table = reduce_chunks(source.block_count(), 16, empty_table(), walk, combine);
+    std::sort(table.leaves.begin(), table.leaves.end(),
+              [](const LeafRef& a, const LeafRef& b) { return tree_order(a) < tree_order(b); });
+    for (std::size_t i = 1; i < table.leaves.size(); ++i) {
+        if (table.leaves[i].origin == table.leaves[i - 1].origin) {
+            throw Error(ErrorCode::Internal, "write vdb: two blocks hold the same leaf");
+        }
+    }
+    return table;
+}
+
+} // namespace heddle

@@ -1,0 +1,60 @@
+#include <heddle/base/progress.h>
+#include <heddle/io/vdb/write_vdb.h>
+#include <heddle/voxel/test_grid.h>
+
+#include <gtest/gtest.h>
+#include <openvdb/io/File.h>
+#include <openvdb/openvdb.h>
+
+#include <cmath>
+#include <filesystem>
+
+namespace heddle {
+namespace {
+
+// What another program sees: OpenVDB and nothing of Heddle's reader.
+
+TEST(PlainOpenVdb, DensityAndTangentStandWhereTheVoxelsAre) {
+    VoxelGrid grid = testing::make_helix(12.0, 2.0, 1);
+    grid.about.lattice.voxel_size = {0.5, 0.25, 2.0};
+    const auto path = std::filesystem::temp_directory_path() / "heddle_plain_openvdb.vdb";
+    Progress progress;
+    write_vdb(grid, path.string(), progress);
+
+    openvdb::initialize();
+    openvdb::io::File file(path.string());
+    file.open(/*delayLoad=*/false);
+    const auto density = openvdb::gridPtrCast<openvdb::FloatGrid>(file.readGrid("density"));
+    const auto tangent = openvdb::gridPtrCast<openvdb::Vec3SGrid>(file.readGrid("tangentu"));
+    file.close();
+    std::filesystem::remove(path);
+
+    EXPECT_EQ(density->getGridClass(), openvdb::GRID_FOG_VOLUME);
+    EXPECT_EQ(density->activeVoxelCount(), static_cast<openvdb::Index64>(grid.about.voxel_count));
+    EXPECT_EQ(tangent->activeVoxelCount(), density->activeVoxelCount());
+    const openvdb::Vec3d corner_voxel = density->indexToWorld(openvdb::Coord(0, 0, 0));
+    EXPECT_EQ(corner_voxel, openvdb::Vec3d(0.25, 0.125, 1.0)); // the centre of [0, 0.5] x ...
+
+    const double cap = 1.0 - 0.5 / 64.0;
+    for (const VoxelBlock& block : grid.blocks) {
+        std::size_t v = 0;
+        for (const VoxelLeaf& leaf : block.leaves) {
+            for (int i = 0; i < 512; ++i) {
+                if (((leaf.active[static_cast<std::size_t>(i >> 6)] >> (i & 63)) & 1) == 0)
+                    continue;
+                const Vec3i at = leaf.origin + Vec3i{i >> 6, (i >> 3) & 7, i & 7};
+                const openvdb::Coord xyz(at.x, at.y, at.z);
+                const double c = std::min(block.coverage[v].x / 65535.0, cap);
+                const double want = -std::log(1.0 - c) * (1 / 0.5 + 1 / 0.25 + 1 / 2.0) / 3.0;
+                ASSERT_NEAR(density->tree().getValue(xyz), want, 1e-4);
+                const openvdb::Vec3s d = tangent->tree().getValue(xyz);
+                const Vec3f p = principal_direction(matrix_from_packed(block.lobes[v].sggx));
+                ASSERT_NEAR(std::abs(d.x() * p.x + d.y() * p.y + d.z() * p.z), 1.0, 2e-3);
+                ++v;
+            }
+        }
+    }
+}
+
+} // namespace
+} // namespace heddle

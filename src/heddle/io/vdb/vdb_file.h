@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace heddle {
+
+/// A grid as the file's own table of contents names it.
+struct GridEntry {
+    std::string name;
+    std::string type;         ///< "Tree_float_5_4_3", with "_HalfFloat" where it is stored so
+    std::int64_t begin = 0;   ///< first byte of its description
+    std::int64_t buffers = 0; ///< first byte of its values
+    std::int64_t end = 0;     ///< one past its last byte
+};
+
+/// What a .vdb says of itself before its first grid's voxels.
+struct VdbContents {
+    std::map<std::string, std::string> metadata; ///< of the file: strings, and int32 in decimal
+    std::vector<GridEntry> grids;                ///< in the file's order
+};
+
+/// Reads a .vdb's table of contents and checks that every grid lies inside the file and that the
+/// file ends with the last one.
+/// @throws Error  NotFound: no such file or not readable; BadFile: not a VDB, truncated, extra
+///                bytes; Unsupported: older than OpenVDB 2, or written without a table of contents
+[[nodiscard]] VdbContents read_contents(const std::string& path);
+
+} // namespace heddle

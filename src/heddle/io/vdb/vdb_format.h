@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstdint>
+
+namespace heddle {
+
+inline constexpr std::int32_t kFormatVersion = 1; ///< of docs/format.md
+
+// File-level metadata keys
+inline constexpr const char* kFormatKey = "heddle_format";       ///< int32
+inline constexpr const char* kLevelsKey = "heddle_levels";       ///< int32
+inline constexpr const char* kInfoKey = "heddle_info";           ///< string, JSON object
+inline constexpr const char* kMaterialsKey = "heddle_materials"; ///< string, JSON array
+inline constexpr const char* kYarnsKey = "heddle_yarns";         ///< string, JSON array
+
+} // namespace heddle
