@@ -7,6 +7,7 @@ list(REMOVE_DUPLICATES _sets)
 foreach(_set IN LISTS _sets)
   install(EXPORT ${_set} NAMESPACE heddle:: DESTINATION ${_dir})
 endforeach()
+set(HEDDLE_OPENVDB_MODULE_DIR /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB) # Debian's Find module
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/heddle-config.cmake.in
   ${CMAKE_CURRENT_BINARY_DIR}/heddle-config.cmake INSTALL_DESTINATION ${_dir})
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/heddle-config-version.cmake
