@@ -21,21 +21,21 @@ std::string spoken_name(const Option& option) {
     return option.positional() ? option.names : "--" + option.key();
 }
 
-[[noreturn]] void refuse_extra(const Command& command,
-                               const std::vector<Option>& options,
-                               const std::string& word) {
+[[noreturn]] void
+refuse_extra(const Command& command, const std::vector<Option>& options, const std::string& word) {
+    const std::string see = str("see heddle ", command.name, " --help");
     if (word.size() < 2 || word.front() != '-') {
-        throw UsageError(str("unexpected argument '", word, "'; see heddle ", command.name, " --help"));
+        throw UsageError(str("unexpected argument '", word, "'; ", see));
     }
     const std::string name = word.substr(0, word.find('='));
     std::vector<std::string> known;
     for (const Option& option : options) {
-        if (!option.positional()) known.push_back(spoken_name(option));
+        if (!option.positional()) known.push_back(option.key());
     }
-    const std::string_view near = nearest(name, known);
+    const std::size_t dashes = std::min(name.find_first_not_of('-'), name.size());
+    const std::string_view near = nearest(std::string_view(name).substr(dashes), known);
     throw UsageError(str("unknown option '", name, "'; ",
-                         near.empty() ? str("see heddle ", command.name, " --help")
-                                      : str("did you mean '", near, "'?")));
+                         near.empty() ? see : str("did you mean '--", near, "'?")));
 }
 
 void check_values(const Option& option, const std::vector<std::string>& values) {
@@ -48,6 +48,42 @@ void check_values(const Option& option, const std::vector<std::string>& values) 
     }
 }
 
+/// The values given to each option, unchecked; a flag's is its name.
+std::vector<std::vector<std::string>> sort_words(const Command& command,
+                                                 const std::vector<Option>& options,
+                                                 const std::vector<std::string>& words) {
+    CLI::App app;
+    app.set_help_flag();
+    app.allow_extras();
+    std::vector<std::vector<std::string>> values(options.size());
+    for (std::size_t i = 0; i < options.size(); ++i) {
+        std::string names = options[i].names;
+        std::erase(names, ' ');
+        if (options[i].values.kind == ValueKind::Flag) {
+            app.add_flag_callback(names, [&, i] { values[i].push_back(options[i].names); });
+            continue;
+        }
+        CLI::Option* parsed = app.add_option(names, values[i]);
+        parsed->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+        parsed->expected(1)->allow_extra_args(false)->type_name(options[i].metavar);
+    }
+    try {
+        // the library takes the words last one first
+        app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+    } catch (const CLI::ParseError& e) {
+        throw UsageError(e.what());
+    }
+    std::vector<std::string> extra = app.remaining();
+    std::erase(extra, "--"); // the mark before words that are no options
+    if (!extra.empty()) {
+        const auto option = std::find_if(extra.begin(), extra.end(), [](const std::string& word) {
+            return word.size() > 1 && word.front() == '-';
+        });
+        refuse_extra(command, options, option != extra.end() ? *option : extra.front());
+    }
+    return values;
+}
+
 /// "scene units; > 0; default 512": what --help puts in brackets.
 std::string bracket(const Option& option) {
     std::string text;
@@ -57,8 +93,9 @@ std::string bracket(const Option& option) {
     add(option.unit);
     add(option.values.range());
     if (!option.preset.empty()) {
-        add(option.preset.front() == '(' ? option.preset.substr(1, option.preset.size() - 2)
-                                         : "default " + option.preset);
+        add(option.preset.front() == '('
+                ? "else " + option.preset.substr(1, option.preset.size() - 2)
+                : "default " + option.preset);
     }
     return text.empty() ? "" : " [" + text + "]";
 }
@@ -84,8 +121,9 @@ std::string markdown_row(const Option& option) {
 }
 
 std::string markdown_table(const std::string& title, const std::vector<Option>& options) {
-    std::string text = str("**", title, "**\n\n| option | default | range | unit | what it does |\n",
-                           "|---|---|---|---|---|\n");
+    std::string text =
+        str("**", title, "**\n\n| option | default | range | unit | what it does |\n",
+            "|---|---|---|---|---|\n");
     for (const Option& option : options) text += markdown_row(option);
     return text + "\n";
 }
@@ -95,7 +133,7 @@ std::string markdown_table(const std::string& title, const std::vector<Option>& 
 const std::vector<Option>& common_options() {
     static const std::vector<Option> options{
         {"--threads", "N", "0", integer(0, 4096), "", "threads to use; 0 = all cores"},
-        {"--seed", "N", "0", integer(0, std::int64_t{1} << 53), "", "of all that is random"},
+        {"--seed", "N", "0", integer(0, 4294967295), "", "of all that is random"},
         {"--json", "", "", flag(), "", "results as one JSON object"},
         {"--quiet", "", "", flag(), "", "no progress, notes or table: errors only"},
         {"-h, --help", "", "", flag(), "", "this text"},
@@ -112,42 +150,15 @@ Arguments parse_arguments(const Command& command,
                           const std::vector<std::string>& words,
                           const std::string& command_line) {
     const std::vector<Option> options = with_common(command);
-    CLI::App app;
-    app.set_help_flag();
-    app.allow_extras();
-    std::vector<std::vector<std::string>> values(options.size());
-    std::vector<CLI::Option*> parsed(options.size());
-    for (std::size_t i = 0; i < options.size(); ++i) {
-        std::string names = options[i].names;
-        names.erase(std::remove(names.begin(), names.end(), ' '), names.end());
-        if (options[i].values.kind == ValueKind::Flag) {
-            parsed[i] = app.add_flag(names);
-        } else {
-            parsed[i] = app.add_option(names, values[i]);
-            parsed[i]->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-            parsed[i]->expected(1);
-        }
-    }
-    try {
-        // the library takes the words last one first
-        app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
-    } catch (const CLI::ParseError& e) {
-        throw UsageError(e.what());
-    }
-    if (const std::vector<std::string> extra = app.remaining(); !extra.empty()) {
-        const auto option = std::find_if(extra.begin(), extra.end(), [](const std::string& word) {
-            return word.size() > 1 && word.front() == '-';
-        });
-        refuse_extra(command, options, option != extra.end() ? *option : extra.front());
-    }
+    const std::vector<std::vector<std::string>> values = sort_words(command, options, words);
     Arguments arguments;
     arguments.command_line = command_line;
     for (std::size_t i = 0; i < options.size(); ++i) {
         const Option& option = options[i];
         arguments.set_preset(option.key(), option.preset);
-        if (parsed[i]->count() > 0) {
+        if (!values[i].empty()) {
             check_values(option, values[i]);
-            arguments.set(option.key(), values[i].empty() ? "" : values[i].front());
+            arguments.set(option.key(), values[i].front());
         } else if (option.required) {
             throw UsageError(str(option.positional() ? "" : "option ", spoken_name(option),
                                  " is missing; see heddle ", command.name, " --help"));
@@ -159,7 +170,9 @@ Arguments parse_arguments(const Command& command,
 std::string help_text(const Command& command) {
     std::string usage = "heddle " + command.name;
     for (const Option& option : command.options) {
-        if (option.required) usage += " " + left_column(option);
+        if (!option.required) continue;
+        usage += " " + option.names.substr(0, option.names.find(','));
+        if (!option.metavar.empty()) usage += " " + option.metavar;
     }
     const std::vector<Option> options = with_common(command);
     std::size_t width = 0;

@@ -81,25 +81,27 @@ void run_generate(const Arguments& arguments, Report& report, ProgressBar& bar) 
 } // namespace
 
 Command generate_command() {
-    return {"generate",
-            "knit, weave, hair, grass or a brushed plate, from nothing",
-            {
-                {"KIND", "", "",
-                 one_of({"knit", "rib", "cable", "plain", "twill", "satin", "hair", "curls",
-                         "brushed", "grass"}),
-                 "", "what is made: cloth (.bcc), strands (.hair) or a mesh (.glb)", true},
-                {"-o, --output", "FILE", "", any_text(), "",
-                 "where it goes: .bcc for cloth, .hair for hair and curls, .glb for the rest", true},
-                {"--counts", "NX,NY", "(a swatch)", numbers(2, 2, 1, 1e9), "",
-                 "loops and rows, warp and weft yarns, strands and points, texels, or blades and quads"},
-                {"--shape", "SHAPE", "flat", one_of({"flat", "folded", "hanging"}), "",
-                 "how cloth lies"},
-                {"--radius", "R", "(the kind's)", positive(), "scene units",
-                 "of a yarn or strand; half the width of a blade"},
-                {"--spacing", "S", "(the kind's)", positive(), "scene units",
-                 "between yarns, roots or texels"},
-            },
-            run_generate};
+    return {
+        "generate",
+        "knit, weave, hair, grass or a brushed plate, from nothing",
+        {
+            {"KIND", "", "",
+             one_of({"knit", "rib", "cable", "plain", "twill", "satin", "hair", "curls", "brushed",
+                     "grass"}),
+             "", "what is made: cloth (.bcc), strands (.hair) or a mesh (.glb)", true},
+            {"-o, --output", "FILE", "", any_text(), "",
+             "where it goes: .bcc for cloth, .hair for hair and curls, .glb for the rest", true},
+            {"--counts", "NX,NY", "(a swatch)", numbers(2, 2, 1, 1e9), "",
+             "loops and rows, warp and weft yarns, strands and points, texels, or blades and "
+             "quads"},
+            {"--shape", "SHAPE", "flat", one_of({"flat", "folded", "hanging"}), "",
+             "how cloth lies"},
+            {"--radius", "R", "(the kind's)", positive(), "scene units",
+             "of a yarn or strand; half the width of a blade"},
+            {"--spacing", "S", "(the kind's)", positive(), "scene units",
+             "between yarns, roots or texels"},
+        },
+        run_generate};
 }
 
 } // namespace heddle::cli

@@ -184,10 +184,8 @@ void report_volume(Report& report, const std::string& path) {
     Json list = Json::array();
     std::string names;
     for (const GridSummary& g : grids) {
-        list.push_back({{"name", g.name},
-                        {"type", g.type},
-                        {"voxels", g.active_voxels},
-                        {"bytes", g.bytes}});
+        list.push_back(
+            {{"name", g.name}, {"type", g.type}, {"voxels", g.active_voxels}, {"bytes", g.bytes}});
         names += str(names.empty() ? "" : ", ", g.name, " (", g.type, ")");
     }
     report.add("grids", "grids", std::move(list), names);
@@ -213,7 +211,8 @@ void run_info(const Arguments& arguments, Report& report, ProgressBar& bar) {
 Command info_command() {
     std::vector<Option> options{
         {"FILE", "", "", any_text(), "", "anything that voxelize reads, or a .vdb of ours", true}};
-    for (const std::vector<Option>& more : {resolution_options(), load_options(), model_options()}) {
+    for (const std::vector<Option>& more :
+         {resolution_options(), load_options(), model_options()}) {
         options.insert(options.end(), more.begin(), more.end());
     }
     return {"info", "what a file holds, and what voxelizing it would take", options, run_info};

@@ -28,8 +28,8 @@ CurveReadOptions read_options(const Arguments& arguments) {
 }
 
 YarnType asked_yarn(Geometry& geometry, const Arguments& arguments) {
-    YarnFile file = read_yarn(arguments.text("yarn"),
-                              [](const std::string& path) { return read_image(path); });
+    YarnFile file =
+        read_yarn(arguments.text("yarn"), [](const std::string& path) { return read_image(path); });
     geometry.notes.insert(geometry.notes.end(), file.notes.begin(), file.notes.end());
     if (arguments.given("fibers")) set_fiber_count(file.yarn, arguments.integer("fibers"));
     if (arguments.given("fiber-radius")) {
@@ -72,7 +72,7 @@ void refuse_without(const Arguments& arguments, const char* option, bool usable,
 
 std::vector<Option> load_options() {
     return {
-        {"--yarn-radius", "R", "(what the file says, else half the distance of neighbouring yarns)",
+        {"--yarn-radius", "R", "(what the file says, or half the distance of neighbouring yarns)",
          positive(), "scene units", "radius of the yarn or hair"},
         {"--repeat", "NX,NY", "1,1", numbers(2, 2, 1, 10000), "tiles",
          "how often a .pyp pattern is repeated"},
@@ -85,8 +85,9 @@ std::vector<Option> model_options() {
          "yarn model: a preset, .toml, or Zhao 2016 fits in .txt"},
         {"--fibers", "N", "(what the model says)", integer(1, 1'000'000), "",
          "fibers in all of a yarn"},
-        {"--fiber-radius", "R", "(what the model says; the yarn's radius where solid)", positive(),
-         "of the yarn model; scene units where solid", "radius of a fiber"},
+        {"--fiber-radius", "R", "(what the model says, or the yarn's radius where solid)",
+         positive(), "of the yarn model",
+         "radius of a fiber; without --yarn: of each curve, in scene units"},
         {"--height-map", "IMAGE", "", any_text(), "",
          "displaces every mesh along its normals; needs uv"},
         {"--height-scale", "S", "1", number(-kInf, kInf), "scene units", "displacement of white"},

@@ -50,8 +50,9 @@ int fail(ExitCode code, std::string text) {
 
 /// The words as a shell would take them back.
 std::string quote_line(const std::vector<std::string>& words) {
-    constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
-                                        "-_./,=:+@%";
+    constexpr std::string_view kPlain =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+        "-_./,=:+@%";
     std::string line = "heddle";
     for (const std::string& word : words) {
         line += ' ';
@@ -67,9 +68,9 @@ std::string quote_line(const std::vector<std::string>& words) {
 }
 
 std::string overview() {
-    std::string text = "heddle " HEDDLE_VERSION
-                       ": yarn, hair and meshes to sparse anisotropic volumes\n"
-                       "usage: heddle COMMAND ... [--help]\n";
+    std::string text =
+        "heddle " HEDDLE_VERSION ": yarn, hair and meshes to sparse anisotropic volumes\n"
+        "usage: heddle COMMAND ... [--help]\n";
     for (const Command& command : commands()) {
         text += str("  ", command.name, std::string(10 - command.name.size(), ' '), command.summary,
                     "\n");

@@ -99,9 +99,8 @@ Values one_of(std::vector<std::string> words) {
     return {.kind = ValueKind::Choice, .words = std::move(words)};
 }
 Values integer(std::int64_t lo, std::int64_t hi) {
-    return {.kind = ValueKind::Integer,
-            .lo = static_cast<double>(lo),
-            .hi = static_cast<double>(hi)};
+    return {
+        .kind = ValueKind::Integer, .lo = static_cast<double>(lo), .hi = static_cast<double>(hi)};
 }
 Values number(double lo, double hi) {
     return {.kind = ValueKind::Numbers, .lo = lo, .hi = hi};

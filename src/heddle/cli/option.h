@@ -48,8 +48,8 @@ struct Values {
 [[nodiscard]] Values number(double lo, double hi);
 [[nodiscard]] Values positive();
 /// `least` or `most` numbers, joined by `separator`.
-[[nodiscard]] Values numbers(
-    int least, int most, double lo, double hi, char separator = ',', bool above = false);
+[[nodiscard]] Values
+numbers(int least, int most, double lo, double hi, char separator = ',', bool above = false);
 [[nodiscard]] Values bytes();
 
 /// One row of a subcommand's table: the parser, --help and the README's table are made from it.

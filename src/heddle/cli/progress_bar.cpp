@@ -48,10 +48,10 @@ void ProgressBar::advance(std::int64_t units) {
 void ProgressBar::draw(double seconds) const {
     constexpr int kWidth = 24;
     const auto done = static_cast<double>(done_.load(std::memory_order_relaxed));
-    const double part =
-        total_ > 0 ? std::clamp(done / static_cast<double>(total_), 0.0, 1.0) : 0.0;
+    const double part = total_ > 0 ? std::clamp(done / static_cast<double>(total_), 0.0, 1.0) : 0.0;
     std::array<char, kWidth + 1> bar{};
-    for (int i = 0; i < kWidth; ++i) bar[static_cast<std::size_t>(i)] = i < part * kWidth ? '#' : '.';
+    for (int i = 0; i < kWidth; ++i)
+        bar[static_cast<std::size_t>(i)] = i < part * kWidth ? '#' : '.';
     const double rate = done / seconds;
     const double left = part > 0.0 ? seconds * (1.0 - part) / part : 0.0;
     std::fprintf(stderr, "\r%-10s [%s] %3.0f %%  %s %s/s  %s left\x1b[K", stage_.c_str(),

@@ -31,7 +31,8 @@ VoxelizeOptions voxelize_options(const Arguments& arguments, const std::string& 
     options.fit = arguments.text("fit") == "last" ? FitMode::Last : FitMode::Moments;
     options.samples = arguments.integer("samples");
     if (options.samples > 0 && options.coverage != CoverageMode::Mask) {
-        throw UsageError("--samples is of no use without --coverage mask: nothing is left to chance");
+        throw UsageError(
+            "--samples is of no use without --coverage mask: nothing is left to chance");
     }
     if (arguments.given("memory")) options.memory_bytes = arguments.bytes("memory");
     options.seed = static_cast<std::uint64_t>(arguments.integer("seed"));
@@ -98,8 +99,8 @@ void run_voxelize(const Arguments& arguments, Report& report, ProgressBar& bar) 
 Command voxelize_command() {
     constexpr double kInf = std::numeric_limits<double>::infinity();
     std::vector<Option> options{
-        {"FILE", "", "", any_text(), "", "curves: .bcc .hair .data .pyp; meshes: .obj .ply .gltf .glb",
-         true},
+        {"FILE", "", "", any_text(), "",
+         "curves: .bcc .hair .data .pyp; meshes: .obj .ply .gltf .glb", true},
         {"-o, --output", "OUT.vdb", "", any_text(), "", "where the volume goes", true},
     };
     const auto add = [&options](const std::vector<Option>& more) {
