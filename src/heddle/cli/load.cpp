@@ -47,6 +47,7 @@ void make_yarn(Geometry& geometry, YarnType yarn) {
     material.name = yarn.name;
     material.kind = MaterialKind::Fiber;
     material.albedo = yarn.albedo;
+    if (geometry.meshes.empty()) geometry.materials.clear(); // the reader's, which nothing names now
     geometry.materials.push_back(material);
     geometry.yarns.assign(1, std::move(yarn));
     for (CurveSet& set : geometry.curves) {
