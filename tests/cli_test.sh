@@ -79,7 +79,7 @@ fails 2 "2^40" voxelize knit.bcc --voxel-size 1e-9 -o old.vdb
 fails 2 "--voxel-size" voxelize knit.bcc --voxel-size 0 -o old.vdb
 fails 2 "--voxel-size" voxelize knit.bcc --voxel-size nan -o old.vdb
 fails 2 "--fibers" voxelize knit.bcc --fibers 10 -o old.vdb
-fails 2 "--yarn" voxelize grass.glb --yarn cotton1 -o old.vdb
+fails 2 "--yarn" voxelize grass.glb --yarn cotton -o old.vdb
 fails 4 "" voxelize knit.bcc --memory 1M --voxels 512 -o old.vdb
 
 # outputs that cannot be written: said before the work starts
@@ -101,7 +101,7 @@ failures=$?
 [ "$(cat old.vdb)" = old ] || wrong "a failed run changed the old output"
 
 # Ctrl-C
-"$heddle" voxelize knit.bcc --yarn cotton1 --voxels 2048 --threads 1 -o old.vdb >out.txt 2>err.txt &
+"$heddle" voxelize knit.bcc --yarn cotton --voxels 2048 --threads 1 -o old.vdb >out.txt 2>err.txt &
 job=$!
 sleep 1
 kill -INT $job
@@ -113,9 +113,9 @@ left=$(find . -name '*.part' -o -name '.*heddle*' -o -name '*spool*')
 [ -z "$left" ] || wrong "left behind: $left"
 
 # results: the same bits for any thread count, and numbers that a program can read
-works voxelize knit.bcc --yarn cotton1 --voxels 64 --threads 1 -o one.vdb --json
+works voxelize knit.bcc --yarn cotton --voxels 64 --threads 1 -o one.vdb --json
 [ "$(json voxels)" -gt 100 ] || wrong "a knit has few voxels: $(json voxels)"
-works voxelize knit.bcc --yarn cotton1 --voxels 64 --threads 3 -o three.vdb --json
+works voxelize knit.bcc --yarn cotton --voxels 64 --threads 3 -o three.vdb --json
 works info one.vdb --json
 hash=$(json content_hash)
 works info three.vdb --json

@@ -27,7 +27,7 @@ step packages "echo tools/packages.txt" bash tools/setup.sh
 step build "echo $heddle" build
 step generate "size_of $out/knit.bcc" "$heddle" generate knit -o "$out/knit.bcc"
 step voxelize "size_of $out/knit.vdb" \
-    "$heddle" voxelize "$out/knit.bcc" --yarn cotton1 -o "$out/knit.vdb"
+    "$heddle" voxelize "$out/knit.bcc" --yarn cotton -o "$out/knit.vdb"
 step preview "size_of $out/knit.png" "$heddle" preview "$out/knit.vdb" -o "$out/knit.png"
 
 printf '\n%-10s %8s  %s\n%s' step seconds result "$table"

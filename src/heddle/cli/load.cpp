@@ -27,11 +27,21 @@ CurveReadOptions read_options(const Arguments& arguments) {
     return options;
 }
 
+/// "cotton, silk, wool".
+std::string preset_names() {
+    std::string names;
+    for (const std::string& name : list_presets()) names += (names.empty() ? "" : ", ") + name;
+    return names;
+}
+
 YarnType asked_yarn(Geometry& geometry, const Arguments& arguments) {
     YarnFile file =
         read_yarn(arguments.text("yarn"), [](const std::string& path) { return read_image(path); });
     geometry.notes.insert(geometry.notes.end(), file.notes.begin(), file.notes.end());
-    if (arguments.given("fibers")) set_fiber_count(file.yarn, arguments.integer("fibers"));
+    if (arguments.given("fibers")) {
+        const std::string note = set_fiber_count(file.yarn, arguments.integer("fibers"));
+        if (!note.empty()) geometry.notes.push_back(note);
+    }
     if (arguments.given("fiber-radius")) {
         file.yarn.fiber_radius = static_cast<float>(arguments.number("fiber-radius"));
     }
@@ -47,7 +57,8 @@ void make_yarn(Geometry& geometry, YarnType yarn) {
     material.name = yarn.name;
     material.kind = MaterialKind::Fiber;
     material.albedo = yarn.albedo;
-    if (geometry.meshes.empty()) geometry.materials.clear(); // the reader's, which nothing names now
+    if (geometry.meshes.empty())
+        geometry.materials.clear(); // the reader's, which nothing names now
     geometry.materials.push_back(material);
     geometry.yarns.assign(1, std::move(yarn));
     for (CurveSet& set : geometry.curves) {
@@ -83,7 +94,7 @@ std::vector<Option> load_options() {
 std::vector<Option> model_options() {
     return {
         {"--yarn", "PRESET|FILE", "(each curve is one solid round fiber)", any_text(), "",
-         "yarn model: a preset, .toml, or Zhao 2016 fits in .txt"},
+         str("yarn model: ", preset_names(), "; or a .toml, or Zhao 2016 fits in .txt")},
         {"--fibers", "N", "(what the model says)", integer(1, 1'000'000), "",
          "fibers in all of a yarn"},
         {"--fiber-radius", "R", "(what the model says, or the yarn's radius where solid)",

@@ -76,7 +76,7 @@ std::string overview() {
                     "\n");
     }
     return text + "first: heddle generate knit -o knit.bcc\n"
-                  "then:  heddle voxelize knit.bcc --yarn cotton1 -o knit.vdb\n";
+                  "then:  heddle voxelize knit.bcc --yarn cotton -o knit.vdb\n";
 }
 
 void run_command(const Command& command, const std::vector<std::string>& words) {
