@@ -5,6 +5,9 @@
 set(HEDDLE_CORE_ROOMS base gpu geom sggx voxel lod)
 add_library(heddle_flags INTERFACE)
 set(_w -Wall -Wextra -Wshadow -Wconversion -Wdouble-promotion -Wundef -Wnon-virtual-dtor -Woverloaded-virtual -ffp-contract=off)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  list(APPEND _w -Wno-restrict) # false at -O3 for "text" + std::string (GCC bug 105651)
+endif()
 target_compile_options(heddle_flags INTERFACE
   "$<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang>:${_w}>"
   "$<$<AND:$<BOOL:${HEDDLE_WERROR}>,$<COMPILE_LANG_AND_ID:CXX,GNU,Clang>>:-Werror>"

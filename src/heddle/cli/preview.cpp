@@ -45,7 +45,6 @@ void run_preview(const Arguments& arguments, Report& report, ProgressBar& bar) {
     bar.begin("read", "files", 1);
     const std::unique_ptr<VoxelGrid> grid = read_vdb(arguments.text("FILE"));
     bar.check();
-    bar.begin("draw", "rows", options.height);
     const PreviewImage image = render_preview(*grid, options, bar);
     bar.begin("write", "files", 1);
     write_output([&] { write_png(output, image.width, image.height, 4, image.rgba); });

@@ -1,6 +1,7 @@
 #include <heddle/base/error.h>
 #include <heddle/cli/text.h>
 #include <heddle/cli/voxel_options.h>
+#include <heddle/io/vdb/predict_vdb.h>
 
 #include <limits>
 
@@ -19,6 +20,8 @@ std::vector<Option> resolution_options() {
 VoxelizeOptions resolution_from(const Arguments& arguments) {
     VoxelizeOptions options;
     options.voxels = arguments.integer("voxels");
+    options.writer_bytes_per_leaf =
+        predict_vdb_bytes(1, 0, 0, {}).memory - predict_vdb_bytes(0, 0, 0, {}).memory;
     if (!arguments.given("voxel-size")) return options;
     if (arguments.given("voxels")) {
         throw UsageError("--voxel-size and --voxels say the same thing twice; give one of them");
@@ -33,9 +36,9 @@ void report_work(Report& report, const VoxelizePlan& plan) {
     report.count("primitives", plan.primitives, "spans and triangles");
     report.add("steps", "steps", plan.steps,
                str(show_count(plan.steps), " subvoxel edges of fiber length"));
-    report.add("predicted_voxels", "predicted voxels", plan.voxels_estimate,
-               show_count(static_cast<double>(plan.voxels_estimate)));
-    report.bytes("predicted file size", plan.output_bytes);
+    report.count("predicted voxels", plan.voxels);
+    report.bytes("predicted file size",
+                 predict_vdb_bytes(plan.leaves, plan.voxels, plan.lobes, {}).file);
     report.bytes("predicted peak memory", plan.peak_bytes);
     report.seconds("predicted time", plan.seconds);
 }
