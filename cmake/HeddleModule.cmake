@@ -1,16 +1,21 @@
-# heddle_add_module(<room> [INTERFACE] PUBLIC_HEADERS ... [SOURCES ...] [CUDA_SOURCES ...] [TESTS ...] [DEPS ...] [PRIVATE_DEPS ...])
+# heddle_add_module(<room> [INTERFACE] [NO_INSTALL] PUBLIC_HEADERS ... [SOURCES ...] [CUDA_SOURCES ...] [TESTS ...] [DEPS ...] [PRIVATE_DEPS ...])
 # One call per folder: target heddle_<room>, alias heddle::<room>, test binary heddle_<room>_test.
+# Every library is installed with its headers: the core in one export set, the rooms above it in another,
+# so that a machine without their libraries can still link the core (cmake/heddle-config.cmake.in).
+set(HEDDLE_CORE_ROOMS base gpu geom sggx voxel lod)
 add_library(heddle_flags INTERFACE)
 set(_w -Wall -Wextra -Wshadow -Wconversion -Wdouble-promotion -Wundef -Wnon-virtual-dtor -Woverloaded-virtual -ffp-contract=off)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  list(APPEND _w -Wno-restrict) # false at -O3 for "text" + std::string (GCC bug 105651)
+endif()
 target_compile_options(heddle_flags INTERFACE
   "$<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang>:${_w}>"
   "$<$<AND:$<BOOL:${HEDDLE_WERROR}>,$<COMPILE_LANG_AND_ID:CXX,GNU,Clang>>:-Werror>"
   "$<$<COMPILE_LANGUAGE:CUDA>:--fmad=false;--expt-relaxed-constexpr;-lineinfo;-Xcompiler=-Wall,-Wextra,-ffp-contract=off>"
   "$<$<AND:$<BOOL:${HEDDLE_WERROR}>,$<COMPILE_LANGUAGE:CUDA>>:-Werror=all-warnings>")
-target_compile_definitions(heddle_flags INTERFACE HEDDLE_HAS_CUDA=$<BOOL:${HEDDLE_CUDA}>)
 function(heddle_add_module path)
   string(REPLACE "/" "_" room ${path}) # io/vdb is target heddle_io_vdb
-  cmake_parse_arguments(A "INTERFACE" "" "PUBLIC_HEADERS;SOURCES;CUDA_SOURCES;TESTS;DEPS;PRIVATE_DEPS" ${ARGN})
+  cmake_parse_arguments(A "INTERFACE;NO_INSTALL" "" "PUBLIC_HEADERS;SOURCES;CUDA_SOURCES;TESTS;DEPS;PRIVATE_DEPS" ${ARGN})
   if(A_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "heddle_add_module(${room}): unknown argument(s): ${A_UNPARSED_ARGUMENTS}")
   endif()
@@ -26,11 +31,22 @@ function(heddle_add_module path)
   endif()
   add_library(heddle::${room} ALIAS heddle_${room})
   target_sources(heddle_${room} ${scope} FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/src FILES ${A_PUBLIC_HEADERS})
-  target_link_libraries(heddle_${room} ${scope} heddle_flags ${A_DEPS})
+  target_compile_definitions(heddle_${room} ${scope} HEDDLE_HAS_CUDA=$<BOOL:${HEDDLE_CUDA}>)
+  target_compile_features(heddle_${room} ${scope} cxx_std_20)
+  # our warnings are ours: a project that links an installed heddle does not get them
+  target_link_libraries(heddle_${room} ${scope} $<BUILD_INTERFACE:heddle_flags> ${A_DEPS})
   if(NOT A_INTERFACE)
     target_link_libraries(heddle_${room} PRIVATE ${A_PRIVATE_DEPS})
   endif()
-  set_target_properties(heddle_${room} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
+  set_target_properties(heddle_${room} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON EXPORT_NAME ${room})
+  if(NOT A_NO_INSTALL)
+    set(set heddle-apps)
+    if(room IN_LIST HEDDLE_CORE_ROOMS)
+      set(set heddle-core)
+    endif()
+    install(TARGETS heddle_${room} EXPORT ${set} FILE_SET HEADERS)
+    set_property(GLOBAL APPEND PROPERTY HEDDLE_EXPORT_SETS ${set})
+  endif()
   if(HEDDLE_TESTS AND A_TESTS)
     find_package(GTest REQUIRED)
     include(GoogleTest)

@@ -1,0 +1,87 @@
+#include <heddle/cli/command_line.h>
+#include <heddle/cli/commands.h>
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace heddle::cli {
+namespace {
+
+Arguments parse(const std::vector<std::string>& words) {
+    return parse_arguments(voxelize_command(), words, "heddle voxelize");
+}
+
+std::string usage_error(const std::vector<std::string>& words) {
+    try {
+        static_cast<void>(parse(words));
+    } catch (const UsageError& e) {
+        return e.what();
+    }
+    return "no error";
+}
+
+TEST(CommandLine, GivenValuesAndPresetsAreTold) {
+    const Arguments a = parse({"in.bcc", "-o", "x.vdb", "--voxel-size", "1,2,3", "--memory=4G"});
+    EXPECT_EQ(a.text("FILE"), "in.bcc");
+    EXPECT_EQ(a.text("output"), "x.vdb");
+    EXPECT_EQ(a.numbers("voxel-size"), (std::vector<double>{1, 2, 3}));
+    EXPECT_EQ(a.bytes("memory"), std::int64_t{4} << 30);
+    EXPECT_FALSE(a.given("voxels"));
+    EXPECT_EQ(a.integer("voxels"), 512);
+    EXPECT_FALSE(a.given("dry-run"));
+}
+
+TEST(CommandLine, NegativeNumbersAreValues) {
+    const Arguments a = parse({"in.bcc", "-o", "x.vdb", "--bounds", "-1,-2,-3,1,2,3"});
+    EXPECT_EQ(a.numbers("bounds").front(), -1.0);
+}
+
+TEST(CommandLine, WrongWordsAreNamedWithWhatWouldBeRight) {
+    const std::vector<std::string> ok{"in.bcc", "-o", "x.vdb"};
+    const auto with = [&ok](const std::vector<std::string>& more) {
+        std::vector<std::string> words = ok;
+        words.insert(words.end(), more.begin(), more.end());
+        return usage_error(words);
+    };
+    EXPECT_EQ(with({"--voxles", "5"}), "unknown option '--voxles'; did you mean '--voxels'?");
+    EXPECT_EQ(with({"--lobes", "9"}), "--lobes: 9 is out of range; it must be 1 to 8");
+    EXPECT_EQ(with({"--lobes", "two"}), "--lobes: 'two' is not a whole number");
+    EXPECT_EQ(with({"--lobes", "1", "--lobes", "2"}), "--lobes is given 2 times");
+    EXPECT_EQ(with({"--fit", "lst"}),
+              "--fit: 'lst' is not one of moments or last; did you mean 'last'?");
+    EXPECT_EQ(with({"--voxel-size", "0"}), "--voxel-size: 0 is out of range; it must be > 0");
+    EXPECT_EQ(with({"--voxel-size", "nan"}), "--voxel-size: 'nan' is not a number");
+    EXPECT_EQ(with({"--voxel-size", "1,2"}),
+              "--voxel-size: '1,2' has 2 numbers; it takes 1 or 3, joined by ','");
+    EXPECT_EQ(with({"--memory", "lots"}), "--memory: 'lots' is not a size; write 4G or 1500M");
+    EXPECT_EQ(with({"more.bcc"}), "unexpected argument 'more.bcc'; see heddle voxelize --help");
+    EXPECT_EQ(usage_error({"in.bcc"}), "option --output is missing; see heddle voxelize --help");
+    EXPECT_EQ(usage_error({"-o", "x.vdb"}), "FILE is missing; see heddle voxelize --help");
+    EXPECT_NE(with({"--voxels"}), "no error");
+}
+
+TEST(CommandLine, EveryPresetIsAValueThatItsOwnRowAllows) {
+    for (const Command& command : commands()) {
+        std::vector<Option> options = command.options;
+        options.insert(options.end(), common_options().begin(), common_options().end());
+        std::set<std::string> keys;
+        for (const Option& option : options) {
+            EXPECT_TRUE(keys.insert(option.key()).second) << command.name << " " << option.key();
+            EXPECT_FALSE(option.text.empty()) << command.name << " " << option.names;
+            if (option.preset.empty() || option.preset.front() == '(') continue;
+            EXPECT_EQ(option.values.problem(option.preset), "") << command.name << option.names;
+        }
+    }
+}
+
+TEST(CommandLine, HelpHasALineForEveryOption) {
+    const std::string text = help_text(voxelize_command());
+    for (const Option& option : voxelize_command().options) {
+        EXPECT_NE(text.find("\n  " + option.names), std::string::npos) << option.names;
+    }
+    EXPECT_NE(text.find("--threads"), std::string::npos);
+}
+
+} // namespace
+} // namespace heddle::cli

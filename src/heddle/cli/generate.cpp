@@ -1,0 +1,107 @@
+#include <heddle/base/error.h>
+#include <heddle/base/memory.h>
+#include <heddle/cli/commands.h>
+#include <heddle/cli/load.h>
+#include <heddle/cli/progress_bar.h>
+#include <heddle/cli/report.h>
+#include <heddle/cli/text.h>
+#include <heddle/geom/generate.h>
+#include <heddle/io/curve_files.h>
+#include <heddle/io/mesh/write_glb.h>
+
+namespace heddle::cli {
+namespace {
+
+/// The suffix of the format that holds what this kind makes.
+std::string suffix_for(GenerateKind kind) {
+    switch (kind) {
+    case GenerateKind::Hair:
+    case GenerateKind::Curls: return ".hair";
+    case GenerateKind::Brushed:
+    case GenerateKind::Grass: return ".glb";
+    default: return ".bcc";
+    }
+}
+
+GenerateOptions generate_options(const Arguments& arguments) {
+    GenerateOptions options;
+    options.kind = generate_kind_from(arguments.text("KIND")).value();
+    const std::string& shape = arguments.text("shape");
+    options.shape = shape == "folded"    ? GenerateShape::Folded
+                    : shape == "hanging" ? GenerateShape::Hanging
+                                         : GenerateShape::Flat;
+    if (arguments.given("counts")) {
+        const std::vector<std::string> counts = split(arguments.text("counts"), ',');
+        const std::optional<std::int64_t> nx = parse_integer(counts[0]);
+        const std::optional<std::int64_t> ny = parse_integer(counts[1]);
+        if (!nx || !ny) throw UsageError("--counts: both must be whole numbers");
+        options.nx = *nx;
+        options.ny = *ny;
+    }
+    options.seed = static_cast<std::uint64_t>(arguments.integer("seed"));
+    if (arguments.given("radius")) options.radius = arguments.number("radius");
+    if (arguments.given("spacing")) options.spacing = arguments.number("spacing");
+    return resolve(options);
+}
+
+void write_geometry(const Geometry& geometry, GenerateKind kind, const std::string& path) {
+    const std::string suffix = suffix_for(kind);
+    if (suffix == ".glb") return write_glb(geometry, path);
+    const CurveSet& set = geometry.curves.front();
+    if (suffix == ".hair") return write_hair(set, path);
+    write_bcc(set, path);
+}
+
+void run_generate(const Arguments& arguments, Report& report, ProgressBar& bar) {
+    const std::string output = arguments.text("output");
+    const GenerateOptions options = generate_options(arguments);
+    check_output(output, suffix_for(options.kind));
+    const std::int64_t bytes = predict_bytes(options);
+    if (const std::int64_t free = available_bytes(); free > 0 && bytes > free) {
+        throw Error(ErrorCode::OutOfMemory,
+                    str("generate: ", show_bytes(static_cast<double>(bytes)), " needed, ",
+                        show_bytes(static_cast<double>(free)), " free"),
+                    "give smaller --counts");
+    }
+    bar.begin("generate", "nodes", predict_nodes(options));
+    const Geometry geometry = generate(options);
+    bar.check();
+    bar.begin("write", "nodes", predict_nodes(options));
+    write_output([&] { write_geometry(geometry, options.kind, output); });
+    bar.finish();
+    report.text("output", output);
+    report.text("kind", std::string(to_string(options.kind)));
+    report.add("counts", "counts", {options.nx, options.ny}, str(options.nx, " x ", options.ny));
+    report.count("nodes", predict_nodes(options));
+    report.number("radius", options.radius, "scene units");
+    report.number("spacing", options.spacing, "scene units");
+    for (const auto& [stage, seconds] : bar.stages()) report.seconds(stage, seconds);
+}
+
+} // namespace
+
+Command generate_command() {
+    return {
+        "generate",
+        "knit, weave, hair, grass or a brushed plate, from nothing",
+        {
+            {"KIND", "", "",
+             one_of({"knit", "rib", "cable", "plain", "twill", "satin", "hair", "curls", "brushed",
+                     "grass"}),
+             "", "what is made: cloth (.bcc), strands (.hair) or a mesh (.glb)", true},
+            {"-o, --output", "FILE", "", any_text(), "",
+             "where it goes: .bcc for cloth, .hair for hair and curls, .glb for the rest", true},
+            {"--counts", "NX,NY", "(a swatch)", numbers(2, 2, 1, 1e9), "",
+             "loops and rows, warp and weft yarns, strands and points, texels, or blades and "
+             "quads"},
+            {"--shape", "SHAPE", "flat", one_of({"flat", "folded", "hanging"}), "",
+             "how cloth lies"},
+            {"--radius", "R", "(the kind's)", positive(), "scene units",
+             "of a yarn or strand; half the width of a blade"},
+            {"--spacing", "S", "(the kind's)", positive(), "scene units",
+             "between yarns, roots or texels"},
+        },
+        run_generate};
+}
+
+} // namespace heddle::cli

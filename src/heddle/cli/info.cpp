@@ -1,0 +1,221 @@
+#include <heddle/base/error.h>
+#include <heddle/cli/commands.h>
+#include <heddle/cli/load.h>
+#include <heddle/cli/progress_bar.h>
+#include <heddle/cli/report.h>
+#include <heddle/cli/text.h>
+#include <heddle/cli/voxel_options.h>
+#include <heddle/io/curve_info.h>
+#include <heddle/io/vdb/content_hash.h>
+#include <heddle/io/vdb/read_vdb.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace heddle::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(Vec3d v) {
+    return {v.x, v.y, v.z};
+}
+std::string show(Vec3d v) {
+    return str(v.x, ", ", v.y, ", ", v.z);
+}
+
+void report_bounds(Report& report, const Bounds& bounds) {
+    if (bounds.empty()) return;
+    report.add("bounds", "bounds", {to_json(bounds.lo), to_json(bounds.hi)},
+               str(show(bounds.lo), "  to  ", show(bounds.hi)));
+    const Vec3d size = bounds.size();
+    report.add("size", "size", to_json(size),
+               str(size.x, " x ", size.y, " x ", size.z, " scene units"));
+}
+
+std::string basis_name(Basis basis) {
+    switch (basis) {
+    case Basis::Linear: return "polyline";
+    case Basis::CatmullRom: return "Catmull-Rom";
+    case Basis::CubicBSpline: return "cubic B-spline";
+    }
+    return {};
+}
+
+/// Rows of all curve sets together.
+/// @return  the bounds of the tubes: centrelines and the largest radius about them
+Bounds report_curves(Report& report, const std::vector<CurveSet>& sets) {
+    CurveStats sum;
+    std::string bases;
+    Bounds bounds;
+    for (std::size_t i = 0; i < sets.size(); ++i) {
+        const CurveStats one = measure(sets[i]);
+        sum.curves += one.curves;
+        sum.points += one.points;
+        sum.spans += one.spans;
+        sum.closed += one.closed;
+        sum.length += one.length;
+        sum.radius_min = i == 0 ? one.radius_min : std::min(sum.radius_min, one.radius_min);
+        sum.radius_max = std::max(sum.radius_max, one.radius_max);
+        if (!one.bounds.empty()) {
+            bounds.grow(one.bounds.lo, double{one.radius_max});
+            bounds.grow(one.bounds.hi, double{one.radius_max});
+        }
+        const std::string basis = basis_name(sets[i].basis);
+        if (bases.find(basis) == std::string::npos) bases += (bases.empty() ? "" : ", ") + basis;
+    }
+    report.count("curves", static_cast<std::int64_t>(sum.curves));
+    report.text("basis", bases);
+    report.count("closed curves", static_cast<std::int64_t>(sum.closed));
+    report.count("points", static_cast<std::int64_t>(sum.points));
+    report.count("spans", static_cast<std::int64_t>(sum.spans));
+    report.number("length", sum.length, "scene units");
+    report.add("radius", "radius", {sum.radius_min, sum.radius_max},
+               sum.radius_min == sum.radius_max
+                   ? str(sum.radius_min, " scene units")
+                   : str(sum.radius_min, " to ", sum.radius_max, " scene units"));
+    return bounds;
+}
+
+Bounds report_meshes(Report& report, const std::vector<Mesh>& meshes) {
+    Bounds bounds;
+    std::size_t triangles = 0;
+    std::size_t vertices = 0;
+    bool normals = true;
+    bool tangents = true;
+    bool uvs = true;
+    for (const Mesh& mesh : meshes) {
+        triangles += mesh.triangles.size();
+        vertices += mesh.positions.size();
+        normals = normals && !mesh.normals.empty();
+        tangents = tangents && !mesh.tangents.empty();
+        uvs = uvs && !mesh.uvs.empty();
+        for (const Vec3f p : mesh.positions) bounds.grow(to_double(p));
+    }
+    report.count("meshes", static_cast<std::int64_t>(meshes.size()));
+    report.count("triangles", static_cast<std::int64_t>(triangles));
+    report.count("vertices", static_cast<std::int64_t>(vertices));
+    std::string with = normals ? "normals" : "";
+    if (tangents) with += with.empty() ? "tangents" : ", tangents";
+    if (uvs) with += with.empty() ? "uv" : ", uv";
+    report.text("all have", with.empty() ? "positions" : with);
+    return bounds;
+}
+
+void report_materials(Report& report, const std::vector<Material>& materials) {
+    Json list = Json::array();
+    std::string names;
+    for (const Material& material : materials) {
+        const char* kind = material.kind == MaterialKind::Fiber ? "fiber" : "surface";
+        list.push_back({{"name", material.name},
+                        {"kind", kind},
+                        {"albedo", {material.albedo.x, material.albedo.y, material.albedo.z}},
+                        {"roughness", material.roughness},
+                        {"metalness", material.metalness},
+                        {"anisotropy", material.anisotropy}});
+        names += str(names.empty() ? "" : ", ", material.name.empty() ? "(unnamed)" : material.name,
+                     " (", kind, ")");
+    }
+    report.add("materials", "materials", std::move(list), names.empty() ? "none" : names);
+}
+
+void report_textures(Report& report, const std::vector<Texture>& textures) {
+    Json list = Json::array();
+    std::size_t bytes = 0;
+    for (const Texture& texture : textures) {
+        list.push_back({{"name", texture.name},
+                        {"width", texture.width},
+                        {"height", texture.height},
+                        {"channels", texture.channels}});
+        bytes += texture.texels.size();
+    }
+    report.add("textures", "textures", std::move(list),
+               textures.empty()
+                   ? "none"
+                   : str(textures.size(), ", ", show_bytes(static_cast<double>(bytes))));
+}
+
+/// What voxelizing would take, or in one row why it cannot be done as asked.
+void report_plan(Report& report, const Geometry& geometry, const VoxelizeOptions& options) {
+    VoxelizePlan plan;
+    try {
+        plan = plan_voxelize(geometry, options);
+    } catch (const Error& e) {
+        return report.text("voxelizing", e.what());
+    }
+    const Vec3d size = plan.lattice.voxel_size;
+    const Vec3i n = plan.voxel_hi - plan.voxel_lo;
+    report.add("voxel_size", "voxel size", to_json(size),
+               str(show(size), " scene units: ", n.x, " x ", n.y, " x ", n.z, " voxels"));
+    report_work(report, plan);
+}
+
+void report_input(Report& report, const std::string& path, const Arguments& arguments) {
+    Geometry geometry = load_geometry(path, arguments);
+    apply_model(geometry, arguments);
+    Bounds bounds;
+    if (!geometry.curves.empty()) bounds.grow(report_curves(report, geometry.curves));
+    if (!geometry.meshes.empty()) bounds.grow(report_meshes(report, geometry.meshes));
+    report_bounds(report, bounds);
+    for (const YarnType& yarn : geometry.yarns) {
+        report.text("yarn", yarn.name);
+        report.count("fibers", yarn.fiber_count(), "in a yarn");
+    }
+    report_materials(report, geometry.materials);
+    report_textures(report, geometry.textures);
+    report_plan(report, geometry, resolution_from(arguments));
+    for (const std::string& note : geometry.notes) report.note(note);
+}
+
+void report_volume(Report& report, const std::string& path) {
+    const std::unique_ptr<VoxelGrid> grid = read_vdb(path);
+    const VoxelGridInfo& info = grid->info();
+    const Vec3d size = info.lattice.voxel_size;
+    report.text("name", info.name);
+    report.add("voxel_size", "voxel size", to_json(size), show(size) + " scene units");
+    report.count("subvoxels", info.lattice.subvoxels, "each way in a voxel");
+    report.count("voxels", info.voxel_count);
+    report.count("lobes", info.lobe_count);
+    report.count("most lobes", info.max_lobes, "in a voxel");
+    report_materials(report, info.materials);
+    for (const YarnType& yarn : info.yarns) report.text("yarn", yarn.name);
+    report.text("command", info.command);
+    const std::vector<GridSummary> grids = summarize_vdb(path);
+    Json list = Json::array();
+    std::string names;
+    for (const GridSummary& g : grids) {
+        list.push_back(
+            {{"name", g.name}, {"type", g.type}, {"voxels", g.active_voxels}, {"bytes", g.bytes}});
+        names += str(names.empty() ? "" : ", ", g.name, " (", g.type, ")");
+    }
+    report.add("grids", "grids", std::move(list), names);
+    report.text("content hash", content_hash(grids));
+}
+
+void run_info(const Arguments& arguments, Report& report, ProgressBar& bar) {
+    const std::string& path = arguments.text("FILE");
+    report.text("file", path);
+    bar.begin("read", "files", 1);
+    if (suffix_of(path) == ".vdb") {
+        report_volume(report, path);
+    } else {
+        report_input(report, path, arguments);
+    }
+    std::error_code ignored;
+    const std::uintmax_t size = std::filesystem::file_size(path, ignored);
+    if (!ignored) report.bytes("file size", static_cast<std::int64_t>(size));
+}
+
+} // namespace
+
+Command info_command() {
+    std::vector<Option> options{
+        {"FILE", "", "", any_text(), "", "anything that voxelize reads, or a .vdb of ours", true}};
+    for (const std::vector<Option>& more :
+         {resolution_options(), load_options(), model_options()}) {
+        options.insert(options.end(), more.begin(), more.end());
+    }
+    return {"info", "what a file holds, and what voxelizing it would take", options, run_info};
+}
+
+} // namespace heddle::cli

@@ -1,0 +1,176 @@
+#include <heddle/base/error.h>
+#include <heddle/cli/load.h>
+#include <heddle/io/curve_files.h>
+#include <heddle/io/image/image.h>
+#include <heddle/io/mesh/read_mesh.h>
+#include <heddle/io/output_file.h>
+#include <heddle/io/yarn_file.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <limits>
+
+namespace heddle::cli {
+namespace {
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+CurveReadOptions read_options(const Arguments& arguments) {
+    CurveReadOptions options;
+    if (arguments.given("yarn-radius")) {
+        options.radius = static_cast<float>(arguments.number("yarn-radius"));
+    }
+    const std::vector<double> repeat = arguments.numbers("repeat");
+    options.repeat_x = static_cast<int>(repeat[0]);
+    options.repeat_y = static_cast<int>(repeat[1]);
+    return options;
+}
+
+/// "cotton, silk, wool".
+std::string preset_names() {
+    std::string names;
+    for (const std::string& name : list_presets()) names += (names.empty() ? "" : ", ") + name;
+    return names;
+}
+
+YarnType asked_yarn(Geometry& geometry, const Arguments& arguments) {
+    YarnFile file =
+        read_yarn(arguments.text("yarn"), [](const std::string& path) { return read_image(path); });
+    geometry.notes.insert(geometry.notes.end(), file.notes.begin(), file.notes.end());
+    if (arguments.given("fibers")) {
+        const std::string note = set_fiber_count(file.yarn, arguments.integer("fibers"));
+        if (!note.empty()) geometry.notes.push_back(note);
+    }
+    if (arguments.given("fiber-radius")) {
+        file.yarn.fiber_radius = static_cast<float>(arguments.number("fiber-radius"));
+    }
+    if (arguments.given("yarn-radius")) {
+        file.yarn.radius = static_cast<float>(arguments.number("yarn-radius"));
+    }
+    return std::move(file.yarn);
+}
+
+/// All curves become this yarn, in a fiber material of its colour.
+void make_yarn(Geometry& geometry, YarnType yarn) {
+    Material material;
+    material.name = yarn.name;
+    material.kind = MaterialKind::Fiber;
+    material.albedo = yarn.albedo;
+    if (geometry.meshes.empty())
+        geometry.materials.clear(); // the reader's, which nothing names now
+    geometry.materials.push_back(material);
+    geometry.yarns.assign(1, std::move(yarn));
+    for (CurveSet& set : geometry.curves) {
+        set.yarn = 0;
+        set.material = static_cast<std::uint32_t>(geometry.materials.size() - 1);
+    }
+}
+
+void set_solid_radius(Geometry& geometry, float radius) {
+    for (CurveSet& set : geometry.curves) {
+        set.radius.clear();
+        set.default_radius = radius;
+    }
+}
+
+void refuse_without(const Arguments& arguments, const char* option, bool usable, const char* need) {
+    if (arguments.given(option) && !usable) {
+        throw UsageError(str("--", option, " is of no use here: ", need));
+    }
+}
+
+} // namespace
+
+std::vector<Option> load_options() {
+    return {
+        {"--yarn-radius", "R", "(what the file says, or half the distance of neighbouring yarns)",
+         positive(), "scene units", "radius of the yarn or hair"},
+        {"--repeat", "NX,NY", "1,1", numbers(2, 2, 1, 10000), "tiles",
+         "how often a .pyp pattern is repeated"},
+    };
+}
+
+std::vector<Option> model_options() {
+    return {
+        {"--yarn", "PRESET|FILE", "(each curve is one solid round fiber)", any_text(), "",
+         str("yarn model: ", preset_names(), "; or a .toml, or Zhao 2016 fits in .txt")},
+        {"--fibers", "N", "(what the model says)", integer(1, 1'000'000), "",
+         "fibers in all of a yarn"},
+        {"--fiber-radius", "R", "(what the model says, or the yarn's radius where solid)",
+         positive(), "of the yarn model",
+         "radius of a fiber; without --yarn: of each curve, in scene units"},
+        {"--height-map", "IMAGE", "", any_text(), "",
+         "displaces every mesh along its normals; needs uv"},
+        {"--height-scale", "S", "1", number(-kInf, kInf), "scene units", "displacement of white"},
+        {"--height-offset", "O", "0", number(-kInf, kInf), "scene units", "displacement of black"},
+    };
+}
+
+std::string suffix_of(const std::string& path) {
+    std::string suffix = std::filesystem::path(path).extension().string();
+    std::transform(suffix.begin(), suffix.end(), suffix.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return suffix;
+}
+
+Geometry load_geometry(const std::string& path, const Arguments& arguments) {
+    if (is_curve_file(path)) return read_curves(path, read_options(arguments));
+    const std::string suffix = suffix_of(path);
+    if (suffix == ".obj") return read_obj(path);
+    if (suffix == ".ply") return read_ply(path);
+    if (suffix == ".gltf" || suffix == ".glb") return read_gltf(path);
+    throw Error(ErrorCode::Unsupported, str("no reader for the suffix '", suffix, "'"),
+                "known: .bcc .hair .data .pyp .obj .ply .gltf .glb", {.path = path});
+}
+
+void apply_model(Geometry& geometry, const Arguments& arguments) {
+    const bool curves = !geometry.curves.empty();
+    for (const char* option : {"yarn", "fiber-radius", "yarn-radius"}) {
+        refuse_without(arguments, option, curves, "the file holds no curves");
+    }
+    refuse_without(arguments, "fibers", arguments.given("yarn"), "it needs --yarn");
+    for (const char* option : {"height-scale", "height-offset"}) {
+        refuse_without(arguments, option, arguments.given("height-map"), "it needs --height-map");
+    }
+    if (arguments.given("yarn")) {
+        make_yarn(geometry, asked_yarn(geometry, arguments));
+    } else if (arguments.given("fiber-radius") || arguments.given("yarn-radius")) {
+        const char* radius = arguments.given("fiber-radius") ? "fiber-radius" : "yarn-radius";
+        set_solid_radius(geometry, static_cast<float>(arguments.number(radius)));
+    }
+    if (arguments.given("height-map")) {
+        set_height_map(geometry, read_image(arguments.text("height-map")),
+                       static_cast<float>(arguments.number("height-scale")),
+                       static_cast<float>(arguments.number("height-offset")));
+    }
+}
+
+void check_output(const std::string& path, const std::string& suffix) {
+    namespace fs = std::filesystem;
+    std::error_code ignored;
+    // formats are written beside their place and renamed into it: a device would be replaced by a file
+    if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
+        throw Error(ErrorCode::CannotWrite, "it is a folder or a device, not a file",
+                    "write to another place", {.path = path});
+    }
+    if (suffix_of(path) != suffix) {
+        throw UsageError(str("--output: '", path, "' must end in ", suffix));
+    }
+    write_output([&path] { const OutputFile probe(path); });
+}
+
+void write_output(const std::function<void()>& write) {
+    try {
+        write();
+    } catch (const Error& e) {
+        switch (e.code()) {
+        case ErrorCode::Cancelled:
+        case ErrorCode::OutOfMemory:
+        case ErrorCode::Internal: throw;
+        default: throw Error(ErrorCode::CannotWrite, e.what());
+        }
+    }
+}
+
+} // namespace heddle::cli

@@ -1,0 +1,140 @@
+#include <heddle/base/error.h>
+#include <heddle/base/parallel.h>
+#include <heddle/cli/command_line.h>
+#include <heddle/cli/commands.h>
+#include <heddle/cli/progress_bar.h>
+#include <heddle/cli/report.h>
+#include <heddle/cli/text.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+namespace heddle::cli {
+namespace {
+
+enum ExitCode : int {
+    Ok = 0,
+    Failed = 1,
+    Usage = 2,
+    BadInput = 3,
+    DeviceOrMemory = 4,
+    Cancelled = 130 // as a shell calls a program that Ctrl-C ended
+};
+
+ExitCode exit_code(const Error& error) {
+    switch (error.code()) {
+    case ErrorCode::InvalidArgument: return error.where().path.empty() ? Usage : BadInput;
+    case ErrorCode::NotFound:
+    case ErrorCode::BadFile:
+    case ErrorCode::Unsupported: return BadInput;
+    case ErrorCode::OutOfMemory:
+    case ErrorCode::Device: return DeviceOrMemory;
+    case ErrorCode::Cancelled: return Cancelled;
+    case ErrorCode::CannotWrite:
+    case ErrorCode::Internal: return Failed;
+    }
+    return Failed;
+}
+
+/// One line on stderr, whatever the text holds.
+int fail(ExitCode code, std::string text) {
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    std::fprintf(stderr, "heddle: %s\n", text.c_str());
+    return code;
+}
+
+/// The words as a shell would take them back.
+std::string quote_line(const std::vector<std::string>& words) {
+    constexpr std::string_view kPlain =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+        "-_./,=:+@%";
+    std::string line = "heddle";
+    for (const std::string& word : words) {
+        line += ' ';
+        if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) {
+            line += word;
+            continue;
+        }
+        line += '\'';
+        for (const char c : word) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
+        line += '\'';
+    }
+    return line;
+}
+
+std::string overview() {
+    std::string text =
+        "heddle " HEDDLE_VERSION ": yarn, hair and meshes to sparse anisotropic volumes\n"
+        "usage: heddle COMMAND ... [--help]\n";
+    for (const Command& command : commands()) {
+        text += str("  ", command.name, std::string(10 - command.name.size(), ' '), command.summary,
+                    "\n");
+    }
+    return text + "first: heddle generate knit -o knit.bcc\n"
+                  "then:  heddle voxelize knit.bcc --yarn cotton -o knit.vdb\n";
+}
+
+void run_command(const Command& command, const std::vector<std::string>& words) {
+    const Arguments arguments(
+        parse_arguments(command, {words.begin() + 1, words.end()}, quote_line(words)));
+    set_thread_count(static_cast<int>(arguments.integer("threads")));
+    Report report;
+    report.json = arguments.given("json");
+    report.quiet = arguments.given("quiet");
+    // on the heap and never freed: a late signal may still reach it
+    auto* bar = new ProgressBar(!report.quiet && ::isatty(STDERR_FILENO) == 1);
+    cancel_on_signals(*bar);
+    try {
+        command.run(arguments, report, *bar);
+    } catch (...) {
+        bar->finish(); // the error's line is not written behind the bar
+        throw;
+    }
+    bar->finish();
+    report.print();
+}
+
+void run(const std::vector<std::string>& words) {
+    if (words.empty() || words[0] == "--help" || words[0] == "-h" || words[0] == "help") {
+        return print_out(overview());
+    }
+    if (words[0] == "--version") return print_out("heddle " HEDDLE_VERSION "\n");
+    if (words[0] == "help-tables") return print_out(markdown_tables(commands()));
+    std::vector<std::string> names;
+    for (const Command& command : commands()) {
+        if (command.name == words[0]) {
+            return wants_help(words) ? print_out(help_text(command)) : run_command(command, words);
+        }
+        names.push_back(command.name);
+    }
+    const std::string_view near = nearest(words[0], names);
+    throw UsageError(str("unknown command '", words[0], "'; ",
+                         near.empty() ? "see heddle --help" : str("did you mean '", near, "'?")));
+}
+
+int guarded_run(const std::vector<std::string>& words) {
+    try {
+        run(words);
+        return Ok;
+    } catch (const UsageError& e) {
+        return fail(Usage, e.what());
+    } catch (const Error& e) {
+        return fail(exit_code(e), e.what());
+    } catch (const std::bad_alloc&) {
+        return fail(DeviceOrMemory, "out of memory; give --memory less than what is free");
+    } catch (const std::exception& e) {
+        return fail(Failed, str("internal error: ", e.what()));
+    }
+}
+
+} // namespace
+} // namespace heddle::cli
+
+int main(int argc, char** argv) {
+    return heddle::cli::guarded_run({argv + std::min(argc, 1), argv + argc});
+}

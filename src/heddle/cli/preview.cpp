@@ -1,0 +1,84 @@
+#include <heddle/base/error.h>
+#include <heddle/cli/commands.h>
+#include <heddle/cli/load.h>
+#include <heddle/cli/progress_bar.h>
+#include <heddle/cli/report.h>
+#include <heddle/io/image/image.h>
+#include <heddle/io/vdb/read_vdb.h>
+#include <heddle/preview/preview.h>
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+namespace heddle::cli {
+namespace {
+
+const std::vector<std::string>& color_names() {
+    static const std::vector<std::string> names{"albedo", "tangent", "width", "material", "block"};
+    return names; // in the order of PreviewColor
+}
+
+PreviewOptions preview_options(const Arguments& arguments) {
+    PreviewOptions options;
+    const auto color =
+        std::find(color_names().begin(), color_names().end(), arguments.text("color"));
+    options.color = static_cast<PreviewColor>(color - color_names().begin());
+    if (arguments.given("from")) {
+        const std::vector<double> from = arguments.numbers("from");
+        options.from = Vec3d{from[0], from[1], from[2]};
+    }
+    if (arguments.given("up")) options.up_axis = arguments.text("up").front() - 'x';
+    const std::vector<double> size = arguments.numbers("size", 'x');
+    options.width = static_cast<std::int32_t>(size[0]);
+    options.height = static_cast<std::int32_t>(size[1]);
+    options.field_of_view = arguments.number("view-angle") * std::numbers::pi / 180.0;
+    options.rays = static_cast<std::int32_t>(arguments.integer("rays"));
+    options.transparent = arguments.given("transparent");
+    return options;
+}
+
+void run_preview(const Arguments& arguments, Report& report, ProgressBar& bar) {
+    const std::string output = arguments.text("output");
+    const PreviewOptions options = preview_options(arguments);
+    check_output(output, ".png");
+    bar.begin("read", "files", 1);
+    const std::unique_ptr<VoxelGrid> grid = read_vdb(arguments.text("FILE"));
+    bar.check();
+    const PreviewImage image = render_preview(*grid, options, bar);
+    bar.begin("write", "files", 1);
+    write_output([&] { write_png(output, image.width, image.height, 4, image.rgba); });
+    bar.finish();
+    report.text("output", output);
+    report.count("voxels", grid->info().voxel_count);
+    report.add("size", "size", {image.width, image.height},
+               str(image.width, " x ", image.height, " pixels"));
+    for (const auto& [stage, seconds] : bar.stages()) report.seconds(stage, seconds);
+}
+
+} // namespace
+
+Command preview_command() {
+    constexpr double kInf = std::numeric_limits<double>::infinity();
+    return {"preview",
+            "a picture of a .vdb, for looking at what is in it",
+            {
+                {"FILE", "", "", any_text(), "", "a .vdb that voxelize wrote", true},
+                {"-o, --output", "OUT.png", "", any_text(), "", "where the picture goes", true},
+                {"--color", "BY", "albedo", one_of(color_names()), "",
+                 "what the colour shows: direction and width are the heaviest lobe's"},
+                {"--from", "X,Y,Z", "(three quarters from the front, from above)",
+                 numbers(3, 3, -kInf, kInf), "any length", "direction from the object to the eye"},
+                {"--up", "AXIS", "(z where the object lies flat in x and y, or y)",
+                 one_of({"x", "y", "z"}), "", "the axis that points up in the picture"},
+                {"--size", "WxH", "1024x1024", numbers(2, 2, 1, 16384, 'x'), "pixels",
+                 "of the picture"},
+                {"--view-angle", "A", "0", number(0, 179), "degrees",
+                 "across the picture's height; 0 = parallel rays"},
+                {"--rays", "N", "1", integer(1, 8), "per pixel and axis", "more are smoother"},
+                {"--transparent", "", "", flag(), "", "keeps alpha, where white would be behind"},
+            },
+            run_preview};
+}
+
+} // namespace heddle::cli

@@ -1,0 +1,76 @@
+#include <heddle/base/error.h>
+#include <heddle/cli/report.h>
+#include <heddle/cli/text.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+namespace heddle::cli {
+namespace {
+
+std::string key_of(std::string label, const std::string& unit) {
+    std::replace(label.begin(), label.end(), ' ', '_');
+    return unit.empty() ? label : label + "_" + unit;
+}
+
+std::string with_unit(std::string text, const std::string& unit) {
+    return unit.empty() ? text : text + " " + unit;
+}
+
+} // namespace
+
+void Report::add(const std::string& key,
+                 const std::string& label,
+                 nlohmann::ordered_json value,
+                 const std::string& shown) {
+    values_[key] = std::move(value);
+    rows_.emplace_back(label, shown);
+}
+
+void Report::text(const std::string& label, const std::string& value) {
+    add(key_of(label, ""), label, value, value);
+}
+void Report::count(const std::string& label, std::int64_t value, const std::string& unit) {
+    add(key_of(label, ""), label, value, with_unit(show_count(static_cast<double>(value)), unit));
+}
+void Report::number(const std::string& label, double value, const std::string& unit) {
+    add(key_of(label, ""), label, value, with_unit(str(value), unit));
+}
+void Report::bytes(const std::string& label, std::int64_t value) {
+    add(key_of(label, "bytes"), label, value, show_bytes(static_cast<double>(value)));
+}
+void Report::seconds(const std::string& label, double value) {
+    add(key_of(label, "seconds"), label, value, show_seconds(value));
+}
+
+void Report::note(const std::string& sentence) {
+    values_["notes"].push_back(sentence);
+    if (!quiet) std::fprintf(stderr, "note: %s\n", sentence.c_str());
+}
+
+void Report::print() const {
+    if (json) {
+        // file names need not be UTF-8; what is not shall not lose the result
+        print_out(values_.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+        return;
+    }
+    if (quiet) return;
+    std::size_t width = 0;
+    for (const auto& [label, shown] : rows_) width = std::max(width, label.size());
+    std::string out;
+    for (const auto& [label, shown] : rows_) {
+        out += label + std::string(width + 2 - label.size(), ' ') + shown + "\n";
+    }
+    print_out(out);
+}
+
+void print_out(const std::string& text) {
+    const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+    if (!written || std::fflush(stdout) != 0) {
+        throw Error(ErrorCode::Internal, str("stdout cannot be written: ", std::strerror(errno)));
+    }
+}
+
+} // namespace heddle::cli

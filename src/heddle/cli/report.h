@@ -1,0 +1,45 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace heddle::cli {
+
+/// What a command found out, row by row: printed as an aligned table, or as one JSON object.
+///
+/// Keys in JSON are the labels with '_' for ' ' and the unit: "peak memory" is "peak_memory_bytes".
+class Report {
+public:
+    void text(const std::string& label, const std::string& value);
+    /// @param unit  printed behind the number; "" for none
+    void count(const std::string& label, std::int64_t value, const std::string& unit = {});
+    void number(const std::string& label, double value, const std::string& unit = {});
+    void bytes(const std::string& label, std::int64_t value);
+    void seconds(const std::string& label, double value);
+    /// Any JSON value, printed as `shown`.
+    void add(const std::string& key,
+             const std::string& label,
+             nlohmann::ordered_json value,
+             const std::string& shown);
+    /// One sentence that the user should see: on stderr at once, and in the JSON's "notes".
+    void note(const std::string& sentence);
+
+    /// @throws Error  Internal: stdout cannot be written
+    void print() const;
+
+    bool json = false;
+    bool quiet = false; ///< no notes, and no table
+
+private:
+    nlohmann::ordered_json values_ = nlohmann::ordered_json::object();
+    std::vector<std::pair<std::string, std::string>> rows_;
+};
+
+/// Writes `text` to stdout.
+/// @throws Error  Internal: stdout cannot be written
+void print_out(const std::string& text);
+
+} // namespace heddle::cli

@@ -1,0 +1,46 @@
+#include <heddle/base/error.h>
+#include <heddle/cli/text.h>
+#include <heddle/cli/voxel_options.h>
+#include <heddle/io/vdb/predict_vdb.h>
+
+#include <limits>
+
+namespace heddle::cli {
+
+std::vector<Option> resolution_options() {
+    return {
+        {"--voxel-size", "X[,Y,Z]", "(from --voxels)",
+         numbers(1, 3, 0.0, std::numeric_limits<double>::infinity(), ',', true), "scene units",
+         "edge of a voxel; three numbers where voxels are not cubes"},
+        {"--voxels", "N", "512", integer(1, std::int64_t{1} << 30), "voxels",
+         "along the longest axis"},
+    };
+}
+
+VoxelizeOptions resolution_from(const Arguments& arguments) {
+    VoxelizeOptions options;
+    options.voxels = arguments.integer("voxels");
+    options.writer_bytes_per_leaf =
+        predict_vdb_bytes(1, 0, 0, {}).memory - predict_vdb_bytes(0, 0, 0, {}).memory;
+    if (!arguments.given("voxel-size")) return options;
+    if (arguments.given("voxels")) {
+        throw UsageError("--voxel-size and --voxels say the same thing twice; give one of them");
+    }
+    const std::vector<double> size = arguments.numbers("voxel-size");
+    const bool cube = size.size() == 1;
+    options.voxel_size = {size[0], cube ? size[0] : size[1], cube ? size[0] : size[2]};
+    return options;
+}
+
+void report_work(Report& report, const VoxelizePlan& plan) {
+    report.count("primitives", plan.primitives, "spans and triangles");
+    report.add("steps", "steps", plan.steps,
+               str(show_count(plan.steps), " subvoxel edges of fiber length"));
+    report.count("predicted voxels", plan.voxels);
+    report.bytes("predicted file size",
+                 predict_vdb_bytes(plan.leaves, plan.voxels, plan.lobes, {}).file);
+    report.bytes("predicted peak memory", plan.peak_bytes);
+    report.seconds("predicted time", plan.seconds);
+}
+
+} // namespace heddle::cli

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <heddle/cli/option.h>
+#include <heddle/cli/report.h>
+#include <heddle/voxel/voxelize.h>
+
+#include <vector>
+
+namespace heddle::cli {
+
+/// The rows that choose the lattice: --voxel-size, --voxels.
+[[nodiscard]] std::vector<Option> resolution_options();
+
+/// What those rows say; all else is the default.
+/// @throws UsageError  both are given
+[[nodiscard]] VoxelizeOptions resolution_from(const Arguments& arguments);
+
+/// Rows on how much work a plan is: primitives, steps, voxels, predicted bytes and time.
+void report_work(Report& report, const VoxelizePlan& plan);
+
+} // namespace heddle::cli

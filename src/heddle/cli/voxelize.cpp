@@ -1,0 +1,132 @@
+#include <heddle/base/memory.h>
+#include <heddle/cli/commands.h>
+#include <heddle/cli/load.h>
+#include <heddle/cli/progress_bar.h>
+#include <heddle/cli/report.h>
+#include <heddle/cli/text.h>
+#include <heddle/cli/voxel_options.h>
+#include <heddle/io/vdb/write_vdb.h>
+#include <heddle/voxel/voxelize.h>
+
+#include <chrono>
+#include <filesystem>
+#include <limits>
+
+namespace heddle::cli {
+namespace {
+
+VoxelizeOptions voxelize_options(const Arguments& arguments, const std::string& output) {
+    VoxelizeOptions options = resolution_from(arguments);
+    if (arguments.given("bounds")) {
+        const std::vector<double> b = arguments.numbers("bounds");
+        options.bounds = Bounds{{b[0], b[1], b[2]}, {b[3], b[4], b[5]}};
+        if (options.bounds->empty()) {
+            throw UsageError("--bounds: its first corner must be the lower one on every axis");
+        }
+    }
+    options.subvoxels = static_cast<std::int32_t>(arguments.integer("subvoxels"));
+    options.max_lobes = static_cast<std::int32_t>(arguments.integer("lobes"));
+    options.coverage =
+        arguments.text("coverage") == "mask" ? CoverageMode::Mask : CoverageMode::Columns;
+    options.fit = arguments.text("fit") == "last" ? FitMode::Last : FitMode::Moments;
+    options.samples = arguments.integer("samples");
+    if (options.samples > 0 && options.coverage != CoverageMode::Mask) {
+        throw UsageError(
+            "--samples is of no use without --coverage mask: nothing is left to chance");
+    }
+    if (arguments.given("memory")) options.memory_bytes = arguments.bytes("memory");
+    options.seed = static_cast<std::uint64_t>(arguments.integer("seed"));
+    const std::string folder = std::filesystem::path(output).parent_path().string();
+    options.spool_dir = folder.empty() ? "." : folder;
+    options.command = arguments.command_line;
+    return options;
+}
+
+void report_plan(Report& report, const VoxelizePlan& plan) {
+    const Vec3d size = plan.lattice.voxel_size;
+    report.add("voxel_size", "voxel size", {size.x, size.y, size.z},
+               str(size.x, " x ", size.y, " x ", size.z, " scene units"));
+    const Vec3i n = plan.voxel_hi - plan.voxel_lo;
+    report.add("resolution", "resolution", {n.x, n.y, n.z},
+               str(n.x, " x ", n.y, " x ", n.z, " voxels, ", plan.lattice.subvoxels,
+                   " subvoxels each way in one"));
+    report_work(report, plan);
+    report.count("blocks", plan.blocks, str("of ", plan.block_voxels, " voxels each way"));
+    report.count("batches", plan.batches, plan.spool ? "with a temporary file" : "");
+    report.number("step length", plan.step_length, "scene units");
+    report.number("chord error", plan.chord_error, "subvoxels");
+}
+
+std::int64_t file_bytes(const std::string& path) {
+    std::error_code ignored;
+    const auto size = std::filesystem::file_size(path, ignored);
+    return ignored ? 0 : static_cast<std::int64_t>(size);
+}
+
+void run_voxelize(const Arguments& arguments, Report& report, ProgressBar& bar) {
+    const auto start = std::chrono::steady_clock::now();
+    const std::string output = arguments.text("output");
+    const VoxelizeOptions options = voxelize_options(arguments, output);
+    const bool dry_run = arguments.given("dry-run");
+    if (!dry_run) check_output(output, ".vdb");
+    bar.begin("read", "files", 1);
+    Geometry geometry = load_geometry(arguments.text("FILE"), arguments);
+    apply_model(geometry, arguments);
+    bar.check();
+    bar.begin("plan", "files", 1);
+    const VoxelizePlan plan = plan_voxelize(geometry, options);
+    bar.finish();
+    for (const std::string& note : geometry.notes) report.note(note);
+    report_plan(report, plan);
+    if (dry_run) return;
+
+    const std::unique_ptr<VoxelSource> source = voxelize(geometry, options, plan, bar);
+    geometry = {}; // its memory is better used by the writer
+    write_output([&] { write_vdb(*source, output, bar); });
+    bar.finish();
+    report.text("output", output);
+    report.count("voxels", source->info().voxel_count);
+    report.count("lobes", source->info().lobe_count);
+    report.bytes("file size", file_bytes(output));
+    for (const auto& [stage, seconds] : bar.stages()) report.seconds(stage, seconds);
+    const std::chrono::duration<double> total = std::chrono::steady_clock::now() - start;
+    report.seconds("total", total.count());
+    report.bytes("peak memory", peak_resident_bytes());
+}
+
+} // namespace
+
+Command voxelize_command() {
+    constexpr double kInf = std::numeric_limits<double>::infinity();
+    std::vector<Option> options{
+        {"FILE", "", "", any_text(), "",
+         "curves: .bcc .hair .data .pyp; meshes: .obj .ply .gltf .glb", true},
+        {"-o, --output", "OUT.vdb", "", any_text(), "", "where the volume goes", true},
+    };
+    const auto add = [&options](const std::vector<Option>& more) {
+        options.insert(options.end(), more.begin(), more.end());
+    };
+    add(resolution_options());
+    add({{"--bounds", "X0,Y0,Z0,X1,Y1,Z1", "(all of the object)", numbers(6, 6, -kInf, kInf),
+          "scene units", "keeps the voxels that lie inside this box"}});
+    add(load_options());
+    add(model_options());
+    add({
+        {"--lobes", "K", "3", integer(1, 8), "", "most orientation lobes in a voxel"},
+        {"--subvoxels", "N", "8", one_of({"1", "2", "4", "8"}), "per voxel axis",
+         "how finely coverage is measured"},
+        {"--coverage", "MODE", "columns", one_of({"columns", "mask"}), "",
+         "columns: by centre rays; mask: by sampled subvoxels, as [Fabre26]"},
+        {"--samples", "N", "0", integer(0, 1'000'000), "per span",
+         "with --coverage mask; 0 = two a subvoxel"},
+        {"--fit", "MODE", "moments", one_of({"moments", "last"}), "",
+         "moments: all directions count; last: one sample's, as earlier voxelizers"},
+        {"--memory", "BYTES", "(half of what is free)", bytes(), "K, M, G",
+         "peak memory that is kept to"},
+        {"--dry-run", "", "", flag(), "", "prints the plan and writes nothing"},
+    });
+    return {"voxelize", "a .vdb with orientations and coverage, from curves or meshes", options,
+            run_voxelize};
+}
+
+} // namespace heddle::cli
