@@ -48,7 +48,7 @@ void place_plies(FiberTable& table, const YarnType& type, CounterRandom& random)
             const float angle = random.uniform();
             push_fiber(table, r, angle, random.uniform(), 0xffffff);
         }
-        table.first_of_ply.push_back(static_cast<std::uint32_t>(table.size()));
+        table.first_of_ply.push_back(static_cast<std::uint32_t>(table.radius.size()));
     }
 }
 
@@ -108,7 +108,7 @@ void place_slice(FiberTable& table, const YarnType& type, CounterRandom& random)
             draw_target();
         }
     }
-    table.first_of_ply.push_back(static_cast<std::uint32_t>(table.size()));
+    table.first_of_ply.push_back(static_cast<std::uint32_t>(table.radius.size()));
     // n pi r^2 = integral of alpha over the slice, which is 2 model radii wide
     const double side = 2.0 * static_cast<double>(type.model_radius);
     const double area = total / static_cast<double>(texels) * side * side;
@@ -134,6 +134,12 @@ FiberTable place_fibers(const YarnType& type, std::uint64_t seed, std::uint64_t 
         table.fiber_radius = type.model_radius;
         break;
     }
+    const std::size_t whole = table.size() + FiberTable::kSpare;
+    for (auto* values : {&table.radius, &table.cos_angle, &table.sin_angle, &table.cos_migration,
+                         &table.sin_migration, &table.migration_turns}) {
+        values->resize(whole);
+    }
+    table.color.resize(whole);
     return table;
 }
 

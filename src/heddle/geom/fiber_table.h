@@ -9,7 +9,8 @@
 namespace heddle {
 
 /// The fibers of one yarn, as constants of their paths about its centreline. Arrays of one length,
-/// grouped by ply; model units of the YarnType.
+/// grouped by ply, with kSpare more entries of no meaning so that whole lanes can be read; model units
+/// of the YarnType.
 ///
 /// At yarn length s (model units) a procedural fiber lies, in its ply's frame (x towards the ply from
 /// the yarn's axis), at (ply_offset + a cos(f) m, b sin(f) m), with f = its angle + 2 pi s / fiber_pitch
@@ -23,7 +24,11 @@ struct FiberTable {
     std::vector<float> migration_turns;              ///< the same phase, in turns
     std::vector<std::uint32_t> color;                ///< linear RGB, 8 bits each; slices only, else white
     float fiber_radius = 0.0f;                       ///< model units
-    [[nodiscard]] std::size_t size() const { return radius.size(); }
+    static constexpr std::size_t kSpare = 8;
+
+    [[nodiscard]] std::size_t size() const {
+        return first_of_ply.empty() ? 0 : first_of_ply.back();
+    }
 };
 
 /// Places the fibers of yarn number `yarn` of its type: counter-based, the same in any order of calls.

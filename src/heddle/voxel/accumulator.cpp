@@ -5,14 +5,17 @@
 namespace heddle {
 
 BlockSums::BlockSums(bool with_maps)
-    : with_maps_(with_maps), table_(kVoxels, kNone), voxels_(kVoxels) {
+    : with_maps_(with_maps), table_(kVoxels + kSpareVoxels, kNone), voxels_(kVoxels + kSpareVoxels) {
+    for (int i = kVoxels; i < kVoxels + kSpareVoxels; ++i) {
+        table_[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>(i);
+    }
     if (with_maps) maps_.resize(kVoxels);
 }
 
 void BlockSums::reset(Vec3i lo, Vec3i hi) {
     lo_ = lo;
     hi_ = hi;
-    std::fill(table_.begin(), table_.end(), kNone);
+    std::fill_n(table_.begin(), kVoxels, kNone);
     if (with_maps_) std::fill_n(maps_.begin(), count_, MapSums{});
     count_ = 0;
     more_.clear();

@@ -54,7 +54,13 @@ public:
 
     /// The voxel's sums, made empty at the first call. (x, y, z) relative to lo, inside the block.
     HEDDLE_INLINE VoxelSums& voxel(int x, int y, int z) {
-        const auto cell = static_cast<std::uint32_t>((x * kBlockVoxels + y) * kBlockVoxels + z);
+        return voxel_at(static_cast<std::uint32_t>((x * kBlockVoxels + y) * kBlockVoxels + z));
+    }
+    /// Voxels that take what lanes without a hit write: numbers kVoxels and on.
+    static constexpr int kSpareVoxels = 8;
+
+    /// The same by its number, (x 32 + y) 32 + z.
+    HEDDLE_INLINE VoxelSums& voxel_at(std::uint32_t cell) {
         std::uint16_t& slot = table_[cell];
         if (slot == kNone) {
             slot = static_cast<std::uint16_t>(count_++);

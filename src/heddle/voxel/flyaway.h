@@ -28,30 +28,47 @@ public:
         chance_ = static_cast<double>(yarn.loop_density) * period / yarn.fibers_per_ply;
     }
 
+    [[nodiscard]] static std::uint64_t
+    id(std::uint64_t seed, std::uint64_t curve, std::uint64_t fiber) {
+        return hash64(seed + 0x6c6f6f70u, curve, fiber);
+    }
+
+    /// False where `factor` is 1 at every phase between the two.
+    /// @param id      of the fiber
+    /// @param phase0  migration phase, turns
+    [[nodiscard]] bool any(std::uint64_t id, double phase0, double phase1, float radius) const {
+        const double first = std::floor(std::min(phase0, phase1) + 0.5);
+        const double last = std::floor(std::max(phase0, phase1) + 0.5);
+        for (double period = first; period <= last; period += 1.0) {
+            if (ratio(id, period, radius) > 1.0) return true;
+        }
+        return false;
+    }
+
     /// What multiplies a fiber's distance from its ply's axis: 1, or in a loop's period
     /// 1 + (r1 / r - 1) cos(pi w), w the distance from the outermost point in periods.
     /// @param phase   migration phase, turns; whole numbers are outermost points
     /// @param radius  the fiber's, of the unit section
-    [[nodiscard]] float factor(std::uint64_t seed,
-                               std::uint64_t curve,
-                               std::uint64_t fiber,
-                               double phase,
-                               float radius) const {
+    [[nodiscard]] float factor(std::uint64_t id, double phase, float radius) const {
         const double period = std::floor(phase + 0.5);
-        const std::uint64_t id = hash64(seed + 0x6c6f6f70u, curve, fiber);
-        const std::uint64_t draw = hash64(id, static_cast<std::uint64_t>(static_cast<long long>(period)));
-        const float rest = radius * section_;
-        if (static_cast<double>(to_unit_float(draw)) >= chance_ || rest <= 0.0f) return 1.0f;
-        const double reach = static_cast<double>(yarn_.loop_r1.mean) +
-                             static_cast<double>(yarn_.loop_r1.sd) * deviate(hash64(id, draw, 1));
-        const double ratio = reach / static_cast<double>(rest);
-        if (ratio <= 1.05) return 1.0f; // no loop where the fiber already runs as far out
         const double w = phase - period;
         const double bump = 1.0 - 4.0 * w * w; // cos(pi w) to 6 %, and 0 at the period's ends
-        return static_cast<float>(1.0 + (ratio - 1.0) * bump);
+        return static_cast<float>(1.0 + (ratio(id, period, radius) - 1.0) * bump);
     }
 
 private:
+    /// How far out a period's loop goes, times the fiber's own distance; 1: no loop.
+    [[nodiscard]] double ratio(std::uint64_t id, double period, float radius) const {
+        const std::uint64_t draw =
+            hash64(id, static_cast<std::uint64_t>(static_cast<long long>(period)));
+        const float rest = radius * section_;
+        if (static_cast<double>(to_unit_float(draw)) >= chance_ || rest <= 0.0f) return 1.0;
+        const double reach = static_cast<double>(yarn_.loop_r1.mean) +
+                             static_cast<double>(yarn_.loop_r1.sd) * deviate(hash64(id, draw, 1));
+        const double ratio = reach / static_cast<double>(rest);
+        return ratio > 1.05 ? ratio : 1.0; // no loop where the fiber already runs as far out
+    }
+
     const YarnType& yarn_;
     float section_;
     double chance_;

@@ -28,9 +28,9 @@ struct FiberPaint {
 /// centreline, which then is never far from what it fills. Units.
 constexpr float kThickRadius = 2.0f;
 
-HEDDLE_INLINE std::int64_t round_to_int(float x) {
-    return static_cast<std::int64_t>(x + (x < 0.0f ? -0.5f : 0.5f));
-}
+/// Directed area that a fiber leaves in a voxel that its side alone reaches into, units^2 a column:
+/// little beside any centreline's, enough to name a direction where nothing else does.
+constexpr float kGrazeWeight = 1.0f / 256.0f;
 
 /// Part of the axial range in which the line origin + s dir lies within a voxel grown by `grow`.
 struct AxialRange {
@@ -78,23 +78,24 @@ HEDDLE_INLINE int mark_subvoxels(VoxelSums& sums,
     return marked;
 }
 
-/// Pools `weight` (units^2) of direction `dir` and the fiber's colour.
-HEDDLE_INLINE void
-pool_direction(BlockSums& block, VoxelSums& voxel, Vec3f d, float weight, const FiberPaint& paint) {
+/// Pools `weight` (units^2, at least kGrazeWeight) of directions and the fiber's colour.
+/// @param moment  second moment of the directions, trace 1: xx yy zz xy xz yz
+HEDDLE_INLINE void pool_moment(BlockSums& block,
+                               VoxelSums& voxel,
+                               const float* moment,
+                               float weight,
+                               const FiberPaint& paint) {
     LobeSums& lobe = block.lobe(voxel, paint.material);
     if (paint.last) lobe = {.weight = 0, .material = lobe.material, .next = lobe.next};
-    const float w = weight * kWeightScale;
-    const float products[6] = {d.x * d.x, d.y * d.y, d.z * d.z, d.x * d.y, d.x * d.z, d.y * d.z};
-    for (std::size_t i = 0; i < 6; ++i) lobe.moment[i] += round_to_int(products[i] * w);
-    // a voxel that a fiber only grazes still gets its direction
-    const std::int64_t area = round_to_int(w);
-    const std::int64_t whole = area > 0 ? area : 1;
-    lobe.weight += whole;
+    const float w = (weight > kGrazeWeight ? weight : kGrazeWeight) * kWeightScale;
+    for (std::size_t i = 0; i < 6; ++i) lobe.moment[i] += static_cast<std::int64_t>(moment[i] * w);
+    const auto area = static_cast<std::int64_t>(w);
+    lobe.weight += area;
     if (block.has_maps()) {
         MapSums& maps = block.maps(voxel, lobe);
         if (paint.last) maps = {};
         for (std::size_t i = 0; i < 3; ++i) {
-            maps.albedo[i] += whole * ((paint.color >> (8 * i)) & 0xff);
+            maps.albedo[i] += area * ((paint.color >> (8 * i)) & 0xff);
         }
     }
 }
@@ -143,7 +144,9 @@ HEDDLE_INLINE void gather_voxel(BlockSums& block,
         const float volume = u.edge.x * u.edge.y * u.edge.z;
         weight = 0.63661977f * volume / k.radius * static_cast<float>(marked);
     }
-    pool_direction(block, voxel, k.dir, weight, paint);
+    const Vec3f& d = k.dir;
+    const float moment[6] = {d.x * d.x, d.y * d.y, d.z * d.z, d.x * d.y, d.x * d.z, d.y * d.z};
+    pool_moment(block, voxel, moment, weight, paint);
 }
 
 /// Adds a chord to the voxels of `block` that its round body meets.
@@ -155,8 +158,8 @@ HEDDLE_INLINE void gather_chord(BlockSums& block,
                                 Vec3i block_size,
                                 const FiberPaint& paint) {
     Vec3f inv_dir;
-    int lo[3];
-    int hi[3];
+    int lo[3]{};
+    int hi[3]{};
     for (int a = 0; a < 3; ++a) {
         const float d = chord.dir[a];
         const float safe = d > 1e-12f || d < -1e-12f ? d : 1e-12f;

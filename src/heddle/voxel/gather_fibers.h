@@ -12,8 +12,8 @@
 namespace heddle {
 
 /// Largest sagitta of a chord, in units (subvoxel edges). Samples are moved outwards so that a chord's
-/// mean distance from its fiber is 0; what is left is at most 1/6 at the joints, 1/12 between.
-constexpr double kChordSagitta = 1.0 / 4.0;
+/// mean distance from its fiber is 0; what is left is at most 1/3 at the joints, 1/6 between, 0.15 rms.
+constexpr double kChordSagitta = 1.0 / 2.0;
 
 /// A piece of a span that reaches into a block: span << 16 | part.
 using PieceId = std::uint64_t;

@@ -1,0 +1,54 @@
+#include <heddle/voxel/fiber_tile.h>
+#include <heddle/voxel/gather_kernels.h>
+
+#include <heddle/voxel/lanes_portable.h>
+
+#include <bit>
+
+#define HEDDLE_ISA portable
+#include <heddle/voxel/pool_lanes.h>
+// mark_lanes.h stands on pool_lanes.h
+#include <heddle/voxel/mark_lanes.h>
+#include <heddle/voxel/expand_lanes.h>
+
+namespace heddle {
+
+namespace avx2 { // gather_avx2.cpp
+void gather(const ChordArrays& chords, const GatherTarget& target);
+void expand(FiberTile& tile,
+            std::span<const PlyPart> parts,
+            const PlySection& section,
+            const FiberTable& table);
+} // namespace avx2
+
+namespace {
+
+bool use_avx2() {
+#if HEDDLE_WITH_AVX2
+    static const bool has = __builtin_cpu_supports("avx2") != 0;
+    return has;
+#else
+    return false;
+#endif
+}
+
+} // namespace
+
+void gather_thin(const ChordArrays& chords, const GatherTarget& target) {
+    if constexpr (HEDDLE_WITH_AVX2) {
+        if (use_avx2()) return avx2::gather(chords, target);
+    }
+    portable::gather(chords, target);
+}
+
+void expand_fibers(FiberTile& tile,
+                   std::span<const PlyPart> parts,
+                   const PlySection& section,
+                   const FiberTable& table) {
+    if constexpr (HEDDLE_WITH_AVX2) {
+        if (use_avx2()) return avx2::expand(tile, parts, section, table);
+    }
+    portable::expand(tile, parts, section, table);
+}
+
+} // namespace heddle

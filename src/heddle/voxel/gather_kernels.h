@@ -1,0 +1,37 @@
+#pragma once
+
+#include <heddle/voxel/gather_chord.h>
+
+#include <cstdint>
+
+namespace heddle {
+
+/// Straight pieces of fibers as arrays, for eight at once. Arrays hold whole eights: where `count` is
+/// not one, the last lanes have length 0.
+struct ChordArrays {
+    const float* start[3]; ///< units, relative to the corner of the voxel `anchor`
+    const float* dir[3];   ///< unit
+    const float* bend[3];  ///< by how much the fiber's direction changes along the chord
+    const float* length;   ///< > 0; else no chord
+    const float* before;   ///< as in Chord
+    const float* after;
+    const float* radius;          ///< at most kThickRadius
+    const std::int32_t* anchor[3]; ///< relative to the block's lo
+    const std::uint32_t* color;
+    int count = 0;
+};
+
+/// Where chords go: what all of a run share.
+struct GatherTarget {
+    BlockSums& block;
+    const LatticeUnits& units;
+    int shift;  ///< log2 of the subvoxels per axis
+    Vec3i size; ///< of the block
+    FiberPaint paint;
+};
+
+/// Adds thin chords to the voxels that they meet: eight chords at once, column by column along each.
+/// The same bits with and without AVX2, which is used where the machine has it.
+void gather_thin(const ChordArrays& chords, const GatherTarget& target);
+
+} // namespace heddle
