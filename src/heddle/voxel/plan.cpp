@@ -139,8 +139,9 @@ void choose_range(VoxelizePlan& plan, const std::string& name) {
     const double factor = std::max(std::cbrt(total / kMaxVoxels), most / kMaxAxis);
     const Vec3d& h = plan.lattice.voxel_size;
     const bool many = total > kMaxVoxels;
-    bad(str("voxel size ", h.x, " needs ", many ? total : most, many ? " voxels" : " voxels from the origin",
-            " over '", name, "' (limit 2^", many ? 40 : 30, ")"),
+    bad(str("voxel size ", h.x, " needs ", many ? total : most,
+            many ? " voxels" : " voxels from the origin", " over '", name, "' (limit 2^",
+            many ? 40 : 30, ")"),
         str("use at least ", h.x * factor * 1.01));
 }
 
@@ -191,8 +192,8 @@ std::int64_t geometry_bytes(const Geometry& geometry) {
                bytes_of(s.color);
     }
     for (const Mesh& m : geometry.meshes) {
-        sum += bytes_of(m.positions) + bytes_of(m.normals) + bytes_of(m.tangents) + bytes_of(m.uvs) +
-               bytes_of(m.triangles);
+        sum += bytes_of(m.positions) + bytes_of(m.normals) + bytes_of(m.tangents) +
+               bytes_of(m.uvs) + bytes_of(m.triangles);
     }
     for (const Texture& t : geometry.textures) sum += bytes_of(t.texels);
     return sum;
@@ -206,14 +207,15 @@ void plan_memory(VoxelizePlan& plan, const VoxelizeContext& context, const Bins&
         kProgramBytes + geometry_bytes(context.geometry) + context.fibers.byte_count();
     const std::int64_t counts = bins.byte_count();
     const std::int64_t workers = thread_count() * BlockWorker::byte_count(context.fit);
-    const VoxelGridFields& fields = context.fit.fields;
+    const VoxelGridFields& fields = plan.fields;
     const auto per_lobe = static_cast<std::int64_t>(
         sizeof(Lobe) + (fields.albedo || fields.surface ? sizeof(LobeMaps) : 0) +
         (fields.tangents ? sizeof(PackedSggx) : 0));
     const auto result = plan.leaves * static_cast<std::int64_t>(sizeof(VoxelLeaf)) +
                         plan.voxels * static_cast<std::int64_t>(sizeof(Coverage) + 1) +
                         plan.lobes * per_lobe;
-    const std::int64_t writer = plan.leaves * context.options.writer_bytes_per_leaf;
+    const std::int64_t writer =
+        context.options.writer_bytes + plan.leaves * context.options.writer_bytes_per_leaf;
     const auto entries = static_cast<std::int64_t>(bins.total_entries() * sizeof(Primitive));
 
     const auto peak = [&](std::int64_t kept, std::int64_t lists) {
@@ -226,10 +228,11 @@ void plan_memory(VoxelizePlan& plan, const VoxelizeContext& context, const Bins&
     plan.batches = entries == 0 ? 1 : (entries + lists - 1) / lists;
     plan.peak_bytes = peak(kept, std::min(entries, lists));
     if (plan.peak_bytes > limit && context.options.memory_bytes != 0) {
-        throw Error(ErrorCode::OutOfMemory,
-                    str("voxelize: ", limit / 1048576, " MiB of memory is not enough for about ",
-                        plan.voxels, " voxels"),
-                    str("give at least ", plan.peak_bytes / 1048576 + 1, "M, or use larger voxels"));
+        throw Error(
+            ErrorCode::OutOfMemory,
+            str("voxelize: ", limit / 1048576, " MiB of memory is not enough for about ",
+                plan.voxels, " voxels"),
+            str("give at least ", plan.peak_bytes / 1048576 + 1, "M, or use larger voxels"));
     }
 }
 
@@ -255,6 +258,7 @@ VoxelizePlan plan_voxelize(const Geometry& geometry, const VoxelizeOptions& opti
     const VoxelizeContext context(geometry, options, plan.lattice, plan.voxel_lo, plan.voxel_hi);
     const Progress silent;
     const Bins bins(context.fibers, context.triangles, context.range, silent);
+    plan.fields = context.fit.fields;
     plan.block_voxels = kBlockVoxels;
     plan.blocks = static_cast<std::int64_t>(bins.blocks().size());
     plan.primitives =
