@@ -1,7 +1,7 @@
 #include <heddle/io/mesh/gltf_model.h>
 
 #include <heddle/base/error.h>
-#include <heddle/io/image/file_bytes.h>
+#include <heddle/io/input_file.h>
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMaxNesting = 64; // of JSON; tinygltf recurses once per level
+constexpr std::uint64_t kMostBytes = 0xFFFFFFFF; // a .glb counts its bytes in 32 bits
+constexpr int kMaxNesting = 64;                  // of JSON; tinygltf recurses once per level
 
 /// tinygltf also looks into the working folder; only the model's own may answer.
 struct Files {
@@ -29,9 +30,8 @@ struct Files {
     static bool
     read(std::vector<unsigned char>* out, std::string* error, const std::string& name, void*) {
         try {
-            const std::vector<std::byte> bytes = read_bytes(name);
-            const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
-            out->assign(data, data + bytes.size());
+            const std::string bytes = read_whole_file(name, kMostBytes);
+            out->assign(bytes.begin(), bytes.end());
             return true;
         } catch (const Error& e) {
             *error = e.what();
@@ -143,7 +143,8 @@ std::string one_line(std::string text) {
 } // namespace
 
 GltfModel::GltfModel(const fs::path& path) : path_(path) {
-    parse(read_bytes(path));
+    const std::string bytes = read_whole_file(path.string(), kMostBytes);
+    parse(std::as_bytes(std::span{bytes}));
     for (const auto& buffer : model_.buffers) held_bytes_ += buffer.data.size();
     for (const std::string& name : model_.extensionsRequired) {
         if (name == "KHR_draco_mesh_compression" || name == "EXT_meshopt_compression")
@@ -165,8 +166,6 @@ std::string_view GltfModel::json_in(std::span<const std::byte> bytes, bool binar
 }
 
 void GltfModel::parse(std::span<const std::byte> bytes) {
-    if (bytes.size() > std::numeric_limits<std::uint32_t>::max())
-        fail(str("has ", bytes.size(), " bytes, glTF has fewer than 2^32"));
     const bool binary = bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
     if (is_nested_too_deep(json_in(bytes, binary)))
         fail(str("JSON is nested deeper than ", kMaxNesting, " levels"));

@@ -1,7 +1,7 @@
 #include <heddle/io/mesh/read_mesh.h>
 
 #include <heddle/base/error.h>
-#include <heddle/io/image/file_bytes.h>
+#include <heddle/io/input_file.h>
 #include <heddle/io/mesh/add_parts.h>
 #include <heddle/io/mesh/obj_material.h>
 #include <heddle/io/mesh/obj_text.h>
@@ -34,8 +34,7 @@ std::string read_libraries(const fs::path& folder, const ObjText& obj, Geometry&
                 out.notes.push_back(str("material library '", name, "' is missing"));
                 continue;
             }
-            const std::vector<std::byte> bytes = read_bytes(folder / name);
-            text.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+            text += read_whole_file((folder / name).string());
             text.push_back('\n');
         }
     }
