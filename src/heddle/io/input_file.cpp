@@ -8,8 +8,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <utility>
 
 namespace heddle {
@@ -28,6 +30,12 @@ constexpr const char* kCutShort =
 }
 
 } // namespace
+
+std::string suffix_of(const std::string& path) {
+    std::string suffix = std::filesystem::path(path).extension().string();
+    for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return suffix;
+}
 
 InputFile::InputFile(std::string path) : path_(std::move(path)) {
     // O_NONBLOCK: a pipe without a writer must not hang before it is found not to be a file

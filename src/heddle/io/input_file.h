@@ -9,6 +9,9 @@
 
 namespace heddle {
 
+/// The suffix of a path in lower case, with its dot: ".bcc"; empty where there is none.
+[[nodiscard]] std::string suffix_of(const std::string& path);
+
 /// A regular file open for reading. Its size is taken once, when it is opened.
 ///
 /// Read by offset, not mapped: a file that shrinks while it is read is an Error, not a SIGBUS.

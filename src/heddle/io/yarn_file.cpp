@@ -124,7 +124,7 @@ std::vector<std::string> list_presets() {
 YarnFile read_yarn(const std::string& preset_or_path, const LoadTexture& load_texture) {
     if (std::optional<YarnType> yarn = preset(preset_or_path)) return {std::move(*yarn), {}};
     const std::string text = read_text(preset_or_path);
-    const std::string suffix = fs::path(preset_or_path).extension().string();
+    const std::string suffix = suffix_of(preset_or_path);
     if (suffix == ".toml") return parse_yarn_toml(text, preset_or_path, load_texture);
     if (suffix == ".txt") return parse_yarn_fit(text, preset_or_path);
     throw Error(ErrorCode::Unsupported, str("the suffix '", suffix, "' names no form of a yarn"),

@@ -54,6 +54,12 @@ bool keep_image(tinygltf::Image* image,
     return true;
 }
 
+bool starts_as_json(std::span<const std::byte> bytes) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    return first != std::string_view::npos && text[first] == '{';
+}
+
 bool is_nested_too_deep(std::string_view json) {
     int depth = 0;
     bool in_string = false;
@@ -134,9 +140,10 @@ Array array_in(const GltfModel& model,
     return {bytes.data() + offset, stride, static_cast<std::size_t>(size)};
 }
 
-std::string one_line(std::string text) {
-    while (!text.empty() && text.back() == '\n') text.pop_back();
-    std::replace(text.begin(), text.end(), '\n', ' ');
+/// The parser's words without the name of its exception and its full stop.
+std::string parser_words(std::string text) {
+    while (!text.empty() && (text.back() == '\n' || text.back() == '.')) text.pop_back();
+    if (text.starts_with("[json.exception")) text.erase(0, text.find("] ") + 2);
     return text.empty() ? "is not a glTF 2.0 file" : text;
 }
 
@@ -167,6 +174,8 @@ std::string_view GltfModel::json_in(std::span<const std::byte> bytes, bool binar
 
 void GltfModel::parse(std::span<const std::byte> bytes) {
     const bool binary = bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
+    if (!binary && !starts_as_json(bytes))
+        fail("is not a glTF file: it starts with neither 'glTF' nor '{'");
     if (is_nested_too_deep(json_in(bytes, binary)))
         fail(str("JSON is nested deeper than ", kMaxNesting, " levels"));
     const std::string folder = path_.has_parent_path() ? path_.parent_path().string() : ".";
@@ -182,7 +191,7 @@ void GltfModel::parse(std::span<const std::byte> bytes) {
     const bool loaded =
         binary ? loader.LoadBinaryFromMemory(&model_, &error, &warning, data, size, folder)
                : loader.LoadASCIIFromString(&model_, &error, &warning, text, size, folder);
-    if (!loaded || !error.empty()) fail(one_line(error));
+    if (!loaded || !error.empty()) fail(parser_words(error));
 }
 
 void GltfModel::fail(const std::string& what) const {

@@ -177,13 +177,6 @@ void add_lines(const tinyobj::ObjReader& obj, const fs::path& path, Geometry& ou
     out.curves.push_back(std::move(lines));
 }
 
-/// The parser's words on one line.
-std::string one_line(std::string text) {
-    while (!text.empty() && text.back() == '\n') text.pop_back();
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
-}
-
 } // namespace
 
 Geometry read_obj(const fs::path& path) try {
@@ -196,7 +189,7 @@ Geometry read_obj(const fs::path& path) try {
     tinyobj::ObjReaderConfig config;
     config.vertex_color = false;
     if (!obj.ParseFromString(text.statements, library, config))
-        throw Error(ErrorCode::BadFile, one_line(obj.Error()), "export the file again",
+        throw Error(ErrorCode::BadFile, obj.Error(), "export the file again",
                     {.path = path.string()});
     text = {};
     add_meshes(obj, path, out);

@@ -282,9 +282,7 @@ GridLeaves read_grid(const std::string& path, const GridEntry& entry) {
     } catch (const Error&) {
         throw;
     } catch (const std::exception& e) { // openvdb::Exception, std::bad_alloc
-        std::string text = e.what();
-        std::replace(text.begin(), text.end(), '\n', ' ');
-        throw Error(ErrorCode::BadFile, str("grid '", entry.name, "' cannot be read: ", text),
+        throw Error(ErrorCode::BadFile, str("grid '", entry.name, "' cannot be read: ", e.what()),
                     "write the file again", {.path = path, .offset = entry.begin});
     }
 }
