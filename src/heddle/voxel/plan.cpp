@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace heddle {
 namespace {
@@ -101,7 +102,23 @@ void check_options(const VoxelizeOptions& o) {
     if (o.samples < 0) bad(str("samples is ", o.samples), "use 0 or more");
 }
 
-void check_geometry(const Geometry& geometry, const Bounds& whole) {
+/// False where all points of each set of curves and each mesh are one: a radius is no extent.
+bool has_extent(const Geometry& geometry) {
+    const auto differ = [](const std::vector<Vec3f>& points) {
+        return std::adjacent_find(points.begin(), points.end(), std::not_equal_to<>()) !=
+               points.end();
+    };
+    return std::any_of(geometry.curves.begin(), geometry.curves.end(),
+                       [&](const CurveSet& set) { return differ(set.points); }) ||
+           std::any_of(geometry.meshes.begin(), geometry.meshes.end(),
+                       [&](const Mesh& mesh) { return differ(mesh.positions); });
+}
+
+void check_geometry(const Geometry& geometry) {
+    if (!has_extent(geometry)) {
+        throw Error(ErrorCode::BadFile, str("voxelize: '", geometry.name, "' has no extent"),
+                    "check the file with heddle info");
+    }
     if (geometry.materials.size() > 256) {
         bad(str(geometry.materials.size(), " materials in '", geometry.name, "' (limit 256)"),
             "merge some, or voxelize parts of it");
@@ -112,10 +129,6 @@ void check_geometry(const Geometry& geometry, const Bounds& whole) {
         const bool given = (yarn != nullptr && yarn->radius > 0.0f) || !set.radius.empty() ||
                            set.default_radius > 0.0f;
         if (!given) bad(str("'", geometry.name, "' names no radius"), "give --yarn-radius");
-    }
-    const Vec3d size = whole.size();
-    if (whole.empty() || !(std::max({size.x, size.y, size.z}) > 0.0)) {
-        bad(str("'", geometry.name, "' has no extent"), "check the file with heddle info");
     }
 }
 
@@ -142,7 +155,7 @@ void choose_range(VoxelizePlan& plan, const std::string& name) {
     bad(str("voxel size ", h.x, " needs ", many ? total : most,
             many ? " voxels" : " voxels from the origin", " over '", name, "' (limit 2^",
             many ? 40 : 30, ")"),
-        str("use at least ", h.x * factor * 1.01));
+        std::isfinite(factor) ? str("use at least ", h.x * factor * 1.01) : "use larger ones");
 }
 
 /// Runs a hashed sample of the blocks and scales what came out by the primitives they hold.
@@ -240,8 +253,8 @@ void plan_memory(VoxelizePlan& plan, const VoxelizeContext& context, const Bins&
 
 VoxelizePlan plan_voxelize(const Geometry& geometry, const VoxelizeOptions& options) {
     check_options(options);
+    check_geometry(geometry);
     const Bounds whole = bounds_of(geometry);
-    check_geometry(geometry, whole);
     VoxelizePlan plan;
     plan.lattice = choose_lattice(options, whole);
     plan.bounds = whole;

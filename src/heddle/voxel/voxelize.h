@@ -65,8 +65,8 @@ struct VoxelizePlan {
 };
 
 /// Plans the work: grid, blocks, batches, predicted bytes and time.
-/// @throws Error  InvalidArgument: voxel size not finite or <= 0, more than 2^40 voxels or 2^30 along
-///                an axis, an object without extent; OutOfMemory: `memory_bytes` below the least
+/// @throws Error  BadFile: an object without extent; InvalidArgument: voxel size not finite or <= 0,
+///                more than 2^40 voxels or 2^30 along an axis; OutOfMemory: `memory_bytes` below the least
 [[nodiscard]] VoxelizePlan plan_voxelize(const Geometry& geometry, const VoxelizeOptions& options);
 
 /// Voxelizes `geometry`: same bits for any thread count, memory limit and batch size; a region
