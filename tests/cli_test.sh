@@ -62,30 +62,62 @@ works generate hair --counts 50,8 -o hair.hair
 echo old >old.vdb
 bad() { fails 3 "$1" voxelize "$2" --voxels 32 -o old.vdb; }
 bad "missing.bcc" missing.bcc
-mkdir folder.bcc && bad "folder.bcc" folder.bcc
-: >empty.bcc && bad "empty.bcc" empty.bcc
-head -c 90 knit.bcc >cut.bcc && bad "cut.bcc" cut.bcc
-echo "some words that are long enough to be a header: 0123456789 0123456789 0123456789" >text.bcc
-bad "text.bcc" text.bcc
+for suffix in bcc hair data pyp obj ply gltf glb; do # one row a trap, for every reader
+    mkdir "folder.$suffix" && bad "folder.$suffix: is a directory" "folder.$suffix"
+    : >"empty.$suffix" && bad "empty.$suffix" "empty.$suffix"
+    echo "some words that are long enough to be a header: 0123456789 0123456789 0123456789" >"text.$suffix"
+    bad "text.$suffix" "text.$suffix"
+    head -c 5000 /dev/zero >"zero.$suffix" && bad "zero.$suffix" "zero.$suffix"
+    ln -s /dev/zero "device.$suffix" && bad "device.$suffix: is a device" "device.$suffix"
+    mkfifo "pipe.$suffix" && bad "pipe.$suffix: is a device or pipe" "pipe.$suffix"
+done
+for n in 1 4 16 60 90 200 1000; do
+    for whole in knit.bcc hair.hair grass.glb; do
+        head -c $n $whole >"cut.${whole#*.}" && bad "cut.${whole#*.}" "cut.${whole#*.}"
+    done
+done
+cp knit.bcc knit.glb && bad "knit.glb" knit.glb
 cp text.bcc text.xyz && bad "known: .bcc" text.xyz
-head -c 200 grass.glb >cut.glb && bad "cut.glb" cut.glb
-echo "v 0 0 0" >empty.obj && bad "empty.obj" empty.obj
-cp text.bcc text.vdb && fails 3 "text.vdb" info text.vdb
-fails 3 "text.vdb" preview text.vdb -o text.png
+mesh() { # TEXT FACE X: a mesh of three points, the first at X
+    printf 'v %s 0 0\nv 1 0 0\nv 0 1 0\nf %s\n' "$3" "$2" >bad.obj && bad "$1" bad.obj
+}
+mesh "bad.obj:4" "1 2 4" 0
+mesh "bad.obj:1" "1 2 3" nan
+mesh "bad.obj:1" "1 2 3" 1e39
+printf 'v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n' >point.obj && bad "has no extent" point.obj
+{ # .data: one strand of two points, which are one
+    printf '\001\000\000\000\002\000\000\000' && head -c 24 /dev/zero
+} >point.data
+bad "has no extent" point.data
+fails 3 "has no extent" voxelize point.data --yarn-radius 0.1 -o old.vdb
+for file in text folder zero empty; do
+    [ "$file" = folder ] && mkdir folder.vdb || cp "$file.bcc" "$file.vdb"
+    fails 3 "$file.vdb" info "$file.vdb"
+    fails 3 "$file.vdb" preview "$file.vdb" -o text.png
+done
 if [ "$(id -u)" -ne 0 ]; then
     cp knit.bcc locked.bcc && chmod 000 locked.bcc && bad "locked.bcc" locked.bcc
 fi
+for size in 0 nan -1 inf 1,1,0 ''; do
+    fails 2 "--voxel-size" voxelize knit.bcc --voxel-size "$size" -o old.vdb
+done
+fails 2 "2^40" voxelize knit.bcc --voxel-size 1e-30 -o old.vdb
 fails 2 "2^40" voxelize knit.bcc --voxel-size 1e-9 -o old.vdb
-fails 2 "--voxel-size" voxelize knit.bcc --voxel-size 0 -o old.vdb
-fails 2 "--voxel-size" voxelize knit.bcc --voxel-size nan -o old.vdb
 fails 2 "--fibers" voxelize knit.bcc --fibers 10 -o old.vdb
 fails 2 "--yarn" voxelize grass.glb --yarn cotton -o old.vdb
 fails 4 "" voxelize knit.bcc --memory 1M --voxels 512 -o old.vdb
 
 # outputs that cannot be written: said before the work starts
 fails 1 "nowhere" voxelize knit.bcc -o nowhere/x.vdb
-mkdir folder.vdb && fails 1 "folder.vdb" voxelize knit.bcc -o folder.vdb
+fails 1 "folder.vdb" voxelize knit.bcc -o folder.vdb
 fails 1 "/dev/full" generate knit -o /dev/full
+for suffix in bcc vdb png; do ln -s /dev/full "full.$suffix"; done
+fails 1 "full.bcc" generate knit -o full.bcc
+fails 1 "full.vdb" voxelize knit.bcc -o full.vdb
+fails 1 "full.png" preview old.vdb -o full.png
+if [ "$(id -u)" -ne 0 ]; then
+    mkdir locked && chmod 555 locked && fails 1 "locked/x.vdb" voxelize knit.bcc -o locked/x.vdb
+fi
 [ -c /dev/full ] || wrong "/dev/full was replaced"
 "$heddle" info knit.bcc >/dev/full 2>err.txt
 [ $? -eq 1 ] && grep -q "stdout" err.txt || wrong "a full stdout goes unnoticed"

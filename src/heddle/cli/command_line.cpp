@@ -1,4 +1,5 @@
 #include <heddle/base/error.h>
+#include <heddle/base/nearest_name.h>
 #include <heddle/cli/command_line.h>
 #include <heddle/cli/text.h>
 
@@ -33,7 +34,7 @@ refuse_extra(const Command& command, const std::vector<Option>& options, const s
         if (!option.positional()) known.push_back(option.key());
     }
     const std::size_t dashes = std::min(name.find_first_not_of('-'), name.size());
-    const std::string_view near = nearest(std::string_view(name).substr(dashes), known);
+    const std::string_view near = nearest_name(std::string_view(name).substr(dashes), known);
     throw UsageError(str("unknown option '", name, "'; ",
                          near.empty() ? see : str("did you mean '--", near, "'?")));
 }

@@ -6,6 +6,7 @@
 #include <heddle/cli/text.h>
 #include <heddle/cli/voxel_options.h>
 #include <heddle/io/curve_info.h>
+#include <heddle/io/input_file.h>
 #include <heddle/io/vdb/content_hash.h>
 #include <heddle/io/vdb/read_vdb.h>
 

@@ -2,12 +2,11 @@
 #include <heddle/cli/load.h>
 #include <heddle/io/curve_files.h>
 #include <heddle/io/image/image.h>
+#include <heddle/io/input_file.h>
 #include <heddle/io/mesh/read_mesh.h>
 #include <heddle/io/output_file.h>
 #include <heddle/io/yarn_file.h>
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <limits>
 
@@ -107,13 +106,6 @@ std::vector<Option> model_options() {
     };
 }
 
-std::string suffix_of(const std::string& path) {
-    std::string suffix = std::filesystem::path(path).extension().string();
-    std::transform(suffix.begin(), suffix.end(), suffix.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return suffix;
-}
-
 Geometry load_geometry(const std::string& path, const Arguments& arguments) {
     if (is_curve_file(path)) return read_curves(path, read_options(arguments));
     const std::string suffix = suffix_of(path);
@@ -149,7 +141,7 @@ void apply_model(Geometry& geometry, const Arguments& arguments) {
 void check_output(const std::string& path, const std::string& suffix) {
     namespace fs = std::filesystem;
     std::error_code ignored;
-    // formats are written beside their place and renamed into it: a device would be replaced by a file
+    // OutputFile would write to a device, but a .vdb needs seeks: said before the work starts
     if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
         throw Error(ErrorCode::CannotWrite, "it is a folder or a device, not a file",
                     "write to another place", {.path = path});

@@ -15,9 +15,6 @@ namespace heddle::cli {
 /// The rows that say what becomes of what was read: --yarn, --fibers, --fiber-radius, --height-map...
 [[nodiscard]] std::vector<Option> model_options();
 
-/// The suffix of a path in lower case: ".bcc".
-[[nodiscard]] std::string suffix_of(const std::string& path);
-
 /// Reads curves or meshes: the reader is chosen by the suffix. Notes are in the result.
 /// @param arguments  with the rows of load_options()
 /// @throws Error  as the readers; Unsupported: no reader for the suffix

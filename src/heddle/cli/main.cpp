@@ -1,4 +1,5 @@
 #include <heddle/base/error.h>
+#include <heddle/base/nearest_name.h>
 #include <heddle/base/parallel.h>
 #include <heddle/cli/command_line.h>
 #include <heddle/cli/commands.h>
@@ -112,7 +113,7 @@ void run(const std::vector<std::string>& words) {
         }
         names.push_back(command.name);
     }
-    const std::string_view near = nearest(words[0], names);
+    const std::string_view near = nearest_name(words[0], names);
     throw UsageError(str("unknown command '", words[0], "'; ",
                          near.empty() ? "see heddle --help" : str("did you mean '", near, "'?")));
 }

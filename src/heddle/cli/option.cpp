@@ -1,4 +1,5 @@
 #include <heddle/base/error.h>
+#include <heddle/base/nearest_name.h>
 #include <heddle/cli/option.h>
 #include <heddle/cli/text.h>
 
@@ -70,7 +71,7 @@ std::string Values::problem(const std::string& text) const {
     switch (kind) {
     case ValueKind::Choice: {
         if (std::find(words.begin(), words.end(), text) != words.end()) return {};
-        const std::string_view near = nearest(text, words);
+        const std::string_view near = nearest_name(text, words);
         return str("'", text, "' is not one of ", join(words),
                    near.empty() ? "" : str("; did you mean '", near, "'?"));
     }

@@ -28,26 +28,6 @@ std::string three_digits(double value, std::string_view unit) {
     return std::string(out.data()).append(unit);
 }
 
-/// Letters to insert, delete, change or swap with a neighbour to get from `a` to `b`.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> before(b.size() + 1);
-    std::vector<std::size_t> last(b.size() + 1);
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t change = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
-            row[j] = std::min({last[j] + 1, row[j - 1] + 1, change});
-            const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
-            if (swapped) row[j] = std::min(row[j], before[j - 2] + 1);
-        }
-        before.swap(last);
-        last.swap(row);
-    }
-    return last[b.size()];
-}
-
 } // namespace
 
 std::optional<std::int64_t> parse_integer(std::string_view text) {
@@ -114,19 +94,6 @@ std::string show_seconds(double seconds) {
     const auto whole = static_cast<std::int64_t>(std::llround(seconds));
     if (whole < 3600) return str(whole / 60, " min ", whole % 60, " s");
     return str(whole / 3600, " h ", whole % 3600 / 60, " min");
-}
-
-std::string_view nearest(std::string_view word, std::span<const std::string> candidates) {
-    std::string_view best;
-    std::size_t least = word.size() / 2 + 1;
-    for (const std::string& candidate : candidates) {
-        const std::size_t distance = edit_distance(word, candidate);
-        if (distance < least) {
-            least = distance;
-            best = candidate;
-        }
-    }
-    return best;
 }
 
 } // namespace heddle::cli

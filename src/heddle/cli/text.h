@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,10 +29,5 @@ namespace heddle::cli {
 
 /// "0.42 s", "12.3 s", "3 min 20 s", "2 h 5 min".
 [[nodiscard]] std::string show_seconds(double seconds);
-
-/// The candidate that takes the fewest inserted, deleted, changed or swapped letters to reach from
-/// `word`; empty when none is nearer than half of the word's length.
-[[nodiscard]] std::string_view nearest(std::string_view word,
-                                       std::span<const std::string> candidates);
 
 } // namespace heddle::cli

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
-
 namespace heddle::cli {
 namespace {
 
@@ -48,13 +46,6 @@ TEST(CliText, SplitKeepsEmptyPieces) {
     EXPECT_EQ(split("1,2", ','), (std::vector<std::string>{"1", "2"}));
     EXPECT_EQ(split("1,,", ','), (std::vector<std::string>{"1", "", ""}));
     EXPECT_EQ(split("", ','), (std::vector<std::string>{""}));
-}
-
-TEST(CliText, TheNearestNameIsSuggestedAndAFarOneIsNot) {
-    const std::array<std::string, 3> names{"--voxels", "--voxel-size", "--lobes"};
-    EXPECT_EQ(nearest("--voxles", names), "--voxels");
-    EXPECT_EQ(nearest("--voxelsize", names), "--voxel-size");
-    EXPECT_EQ(nearest("--zzzzzzzz", names), "");
 }
 
 } // namespace

@@ -20,8 +20,8 @@ std::vector<Option> resolution_options() {
 VoxelizeOptions resolution_from(const Arguments& arguments) {
     VoxelizeOptions options;
     options.voxels = arguments.integer("voxels");
-    options.writer_bytes_per_leaf =
-        predict_vdb_bytes(1, 0, 0, {}).memory - predict_vdb_bytes(0, 0, 0, {}).memory;
+    options.writer_bytes = kVdbWriterBytes;
+    options.writer_bytes_per_leaf = kVdbWriterBytesPerLeaf;
     if (!arguments.given("voxel-size")) return options;
     if (arguments.given("voxels")) {
         throw UsageError("--voxel-size and --voxels say the same thing twice; give one of them");
@@ -38,7 +38,7 @@ void report_work(Report& report, const VoxelizePlan& plan) {
                str(show_count(plan.steps), " subvoxel edges of fiber length"));
     report.count("predicted voxels", plan.voxels);
     report.bytes("predicted file size",
-                 predict_vdb_bytes(plan.leaves, plan.voxels, plan.lobes, {}).file);
+                 predict_vdb_bytes(plan.leaves, plan.voxels, plan.lobes, plan.fields).file);
     report.bytes("predicted peak memory", plan.peak_bytes);
     report.seconds("predicted time", plan.seconds);
 }

@@ -85,6 +85,7 @@ void run_voxelize(const Arguments& arguments, Report& report, ProgressBar& bar) 
     write_output([&] { write_vdb(*source, output, bar); });
     bar.finish();
     report.text("output", output);
+    if (source->info().voxel_count == 0) report.note("nothing is covered: the volume is empty");
     report.count("voxels", source->info().voxel_count);
     report.count("lobes", source->info().lobe_count);
     report.bytes("file size", file_bytes(output));

@@ -1,11 +1,10 @@
 #include <heddle/io/curve_files.h>
 
 #include <heddle/base/error.h>
+#include <heddle/io/input_file.h>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <filesystem>
 
 namespace heddle {
 namespace {
@@ -19,9 +18,7 @@ constexpr std::array<CurveFormat, 4> kFormats{
     {{".bcc", read_bcc}, {".hair", read_hair}, {".data", read_usc}, {".pyp", read_pyp}}};
 
 const CurveFormat* find_format(const std::string& path) {
-    std::string suffix = std::filesystem::path(path).extension().string();
-    std::transform(suffix.begin(), suffix.end(), suffix.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string suffix = suffix_of(path);
     const auto found = std::find_if(kFormats.begin(), kFormats.end(),
                                     [&](const CurveFormat& f) { return suffix == f.suffix; });
     return found == kFormats.end() ? nullptr : &*found;

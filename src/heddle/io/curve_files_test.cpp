@@ -19,6 +19,8 @@ struct Expected {
     std::size_t closed;
     double polygon_length; ///< of control polygons, closing steps included
     float radius;          ///< from the file; 0: estimated, about 0.1
+    /// The test's name in CTest: not the bytes, which hold a pointer.
+    friend std::ostream& operator<<(std::ostream& out, const Expected& e) { return out << e.name; }
 };
 
 class RealCurves : public ::testing::TestWithParam<Expected> {};

@@ -1,20 +1,24 @@
 #include <heddle/io/input_file.h>
 
 #include <heddle/base/error.h>
+#include <heddle/base/memory.h>
 
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <utility>
 
 namespace heddle {
 namespace {
 
 constexpr std::uint64_t kBufferBytes = 1u << 16; // small reads come from here, not from the kernel
+constexpr std::uint64_t kSurelyFits = 1u << 26;
 constexpr const char* kCutShort =
     "the file is cut short or of another kind; copy or export it again";
 
@@ -26,6 +30,12 @@ constexpr const char* kCutShort =
 }
 
 } // namespace
+
+std::string suffix_of(const std::string& path) {
+    std::string suffix = std::filesystem::path(path).extension().string();
+    for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return suffix;
+}
 
 InputFile::InputFile(std::string path) : path_(std::move(path)) {
     // O_NONBLOCK: a pipe without a writer must not hang before it is found not to be a file
@@ -74,6 +84,14 @@ std::string read_whole_file(const std::string& path, std::uint64_t limit_bytes) 
             ErrorCode::BadFile,
             str("has ", file.size_bytes(), " bytes, the limit for this kind is ", limit_bytes),
             "check that it is the right file", {.path = path});
+    }
+    // asking the system costs more than reading a small file
+    const std::int64_t available = file.size_bytes() < kSurelyFits ? 0 : available_bytes();
+    if (available > 0 && file.size_bytes() > static_cast<std::uint64_t>(available)) {
+        throw Error(
+            ErrorCode::OutOfMemory,
+            str("has ", file.size_bytes(), " bytes, and ", available, " bytes of memory are free"),
+            "free some memory or split the file", {.path = path});
     }
     std::string text(file.size_bytes(), '\0');
     file.read_at(0, text.data(), text.size());

@@ -9,6 +9,9 @@
 
 namespace heddle {
 
+/// The suffix of a path in lower case, with its dot: ".bcc"; empty where there is none.
+[[nodiscard]] std::string suffix_of(const std::string& path);
+
 /// A regular file open for reading. Its size is taken once, when it is opened.
 ///
 /// Read by offset, not mapped: a file that shrinks while it is read is an Error, not a SIGBUS.
@@ -34,9 +37,12 @@ private:
     int fd_ = -1;
 };
 
+/// For files of a kind that has no largest size.
+inline constexpr std::uint64_t kAnySize = ~std::uint64_t{0};
+
 /// The whole file as bytes, for parsers of text.
 /// @param limit_bytes  largest size taken; more is an Error, so that a wrong file is not swallowed
-/// @throws Error       as InputFile; BadFile: larger than the limit
+/// @throws Error       as InputFile; BadFile: larger than the limit; OutOfMemory: than what is free
 [[nodiscard]] std::string read_whole_file(const std::string& path,
                                           std::uint64_t limit_bytes = std::uint64_t{1} << 30);
 

@@ -45,6 +45,11 @@ public:
         write(&value, sizeof(T));
     }
 
+    /// Throws the Error of a failure to write, for what writes by `temp_path()`.
+    /// @param doing  "write", in "cannot write"
+    /// @param error  an errno
+    [[noreturn]] void fail(const char* doing, int error) const;
+
     /// Flushes, waits until the disk has it, renames into place. Once, last.
     /// @throws Error  CannotWrite; the old file is then untouched
     void commit();
@@ -52,7 +57,6 @@ public:
 private:
     void flush();
     void close_checked();
-    [[noreturn]] void fail(const char* doing, int error) const;
 
     std::string path_;       ///< as the user named it, for messages
     std::string final_path_; ///< with a symbolic link resolved

@@ -1,14 +1,13 @@
 #include <heddle/io/yarn_file.h>
 
 #include <heddle/base/error.h>
+#include <heddle/io/input_file.h>
 #include <heddle/io/yarn_file_form.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 namespace heddle {
@@ -17,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A yarn's text is some 30 lines: a larger file is something else.
-constexpr std::uintmax_t kMostBytes = 1 << 20;
+constexpr std::uint64_t kMostBytes = 1 << 20;
 
 YarnType wool() {
     YarnType y;
@@ -111,28 +110,9 @@ std::optional<YarnType> preset(const std::string& name) {
 }
 
 std::string read_text(const std::string& path) {
-    std::error_code error;
-    const fs::file_status status = fs::status(path, error);
-    if (status.type() == fs::file_type::not_found) {
-        throw_unknown(path);
-    }
-    if (error || !fs::is_regular_file(status)) {
-        throw Error(ErrorCode::BadFile, "is not a readable file", "give a .txt or .toml file",
-                    {.path = path});
-    }
-    const std::uintmax_t size = fs::file_size(path, error);
-    if (error || size > kMostBytes) {
-        throw Error(ErrorCode::BadFile,
-                    error ? error.message() : str("is ", size, " bytes, a yarn takes at most 2^20"),
-                    {}, {.path = path});
-    }
-    std::ifstream in(path, std::ios::binary);
-    std::ostringstream text;
-    text << in.rdbuf();
-    if (!in || (size > 0 && !text)) {
-        throw Error(ErrorCode::BadFile, "cannot be read", "check its permissions", {.path = path});
-    }
-    return std::move(text).str();
+    std::error_code ignored;
+    if (!fs::exists(path, ignored)) throw_unknown(path);
+    return read_whole_file(path, kMostBytes);
 }
 
 } // namespace
@@ -144,7 +124,7 @@ std::vector<std::string> list_presets() {
 YarnFile read_yarn(const std::string& preset_or_path, const LoadTexture& load_texture) {
     if (std::optional<YarnType> yarn = preset(preset_or_path)) return {std::move(*yarn), {}};
     const std::string text = read_text(preset_or_path);
-    const std::string suffix = fs::path(preset_or_path).extension().string();
+    const std::string suffix = suffix_of(preset_or_path);
     if (suffix == ".toml") return parse_yarn_toml(text, preset_or_path, load_texture);
     if (suffix == ".txt") return parse_yarn_fit(text, preset_or_path);
     throw Error(ErrorCode::Unsupported, str("the suffix '", suffix, "' names no form of a yarn"),

@@ -1,6 +1,7 @@
 #include <heddle/io/yarn_file_form.h>
 
 #include <heddle/base/error.h>
+#include <heddle/base/nearest_name.h>
 #include <heddle/io/yarn_file.h>
 
 #include <algorithm>
@@ -15,22 +16,6 @@ constexpr double kLong = 1e9; ///< of lengths, in model units: far beyond any, f
 constexpr auto kAny = YarnModel::Solid;
 constexpr auto kPly = YarnModel::Procedural;
 constexpr auto kSlice = YarnModel::Slice;
-
-/// Edits that turn `a` into `b`.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
-        }
-    }
-    return row[b.size()];
-}
 
 std::string range_text(const Field& field) {
     return str(field.above ? "above " : "from ", field.least, field.above ? " and up to " : " to ",
@@ -181,15 +166,7 @@ std::string complete(YarnType& yarn, Problems& problems) {
 }
 
 std::string suggest(std::string_view key, const std::vector<std::string_view>& known) {
-    std::string_view nearest;
-    std::size_t least = std::max<std::size_t>(3, key.size() / 2 + 1); // farther is no likeness
-    for (const std::string_view k : known) {
-        const std::size_t d = key.size() > 64 ? least : edit_distance(key, k);
-        if (d < least) {
-            least = d;
-            nearest = k;
-        }
-    }
+    const std::string_view nearest = nearest_name(key, known);
     std::string text = nearest.empty() ? "" : str("; did you mean '", nearest, "'?");
     if (nearest.empty() || known.size() <= 6) {
         text += nearest.empty() ? "; known: " : " known: ";

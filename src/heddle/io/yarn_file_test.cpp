@@ -1,6 +1,7 @@
 #include <heddle/io/yarn_file.h>
 
 #include <heddle/base/error.h>
+#include <heddle/io/test_files.h>
 
 #include <gtest/gtest.h>
 
@@ -268,36 +269,25 @@ TEST(YarnFile, FiberCountIsSplitOverPliesAndKeepsTheFill) {
 }
 
 TEST(YarnFile, UnusablePathsAreErrors) {
-    const fs::path dir = fs::path(testing::TempDir()) / "heddle_yarn_file";
-    fs::create_directories(dir / "folder.toml");
-    const auto error = [](const fs::path& p) {
-        return error_of([&] { return read_yarn(p.string()); });
-    };
+    const testing::TempFolder folder;
+    fs::create_directories(folder.file("folder.toml"));
+    const auto error = [](const std::string& p) { return error_of([&] { return read_yarn(p); }); };
     EXPECT_HAS(error("wol"), "did you mean 'wool'?");
     EXPECT_HAS(error("no/such.toml"), "no yarn preset or file");
     EXPECT_HAS(error(""), "no yarn preset or file");
-    EXPECT_HAS(error(dir / "folder.toml"), "is not a readable file");
-    std::ofstream(dir / "yarn.obj") << kFit;
-    EXPECT_HAS(error(dir / "yarn.obj"), "'.obj'");
-    std::ofstream(dir / "yarn.toml") << kFit;
-    EXPECT_HAS(error(dir / "yarn.toml"), "yarn.toml:1:");
-    std::ofstream(dir / "empty.txt").flush();
-    EXPECT_HAS(error(dir / "empty.txt"), "is missing");
-    std::ofstream(dir / "empty.toml").flush();
-    EXPECT_HAS(error(dir / "empty.toml"), "'model' is missing");
-    std::ofstream(dir / "large.txt") << std::string((1 << 20) + 1, ' ');
-    EXPECT_HAS(error(dir / "large.txt"), "at most 2^20");
-    std::ofstream(dir / "good.txt") << kFit;
-    EXPECT_EQ(error(dir / "good.txt"), "");
-    fs::remove_all(dir);
+    EXPECT_HAS(error(folder.file("folder.toml")), "is a directory");
+    EXPECT_HAS(error(folder.write("yarn.obj", kFit)), "'.obj'");
+    EXPECT_HAS(error(folder.write("yarn.toml", kFit)), "yarn.toml:1:");
+    EXPECT_HAS(error(folder.write("empty.txt", "")), "is missing");
+    EXPECT_HAS(error(folder.write("empty.toml", "")), "'model' is missing");
+    EXPECT_HAS(error(folder.write("large.txt", std::string((1 << 20) + 1, ' '))),
+               "limit for this kind is 1048576");
+    EXPECT_EQ(error(folder.write("good.txt", kFit)), "");
 }
 
 TEST(YarnFile, EveryPublishedFitIsRead) {
-    const char* given = std::getenv("HEDDLE_TEST_DATA");
-    const fs::path data =
-        given != nullptr ? fs::path(given) : fs::path(HEDDLE_SOURCE_DIR) / ".." / "shared" / "data";
-    const fs::path folder = data / "params" / "zhao2016";
-    if (!fs::is_directory(folder)) GTEST_SKIP() << "no " << folder << "; set HEDDLE_TEST_DATA";
+    const std::string folder = testing::find_data("params/zhao2016");
+    if (folder.empty()) GTEST_SKIP() << "no Zhao 2016 fits; set HEDDLE_TEST_DATA";
     int read = 0;
     for (const auto& entry : fs::directory_iterator(folder)) {
         if (entry.path().extension() != ".txt") continue;
@@ -305,11 +295,9 @@ TEST(YarnFile, EveryPublishedFitIsRead) {
         EXPECT_GE(f.yarn.plies, 2);
         EXPECT_TRUE(f.yarn.flyaways);
         EXPECT_EQ(f.notes.size(), 1u);
-        std::ifstream in(entry.path());
-        std::ostringstream text;
-        text << in.rdbuf();
-        for (std::size_t n = 0; n < text.str().size(); ++n) {
-            static_cast<void>(fit_error(text.str().substr(0, n)));
+        const std::string text = testing::slurp(entry.path().string());
+        for (std::size_t n = 0; n < text.size(); ++n) {
+            static_cast<void>(fit_error(text.substr(0, n)));
         }
         ++read;
     }

@@ -1,7 +1,8 @@
 #include <heddle/preview/scene.h>
 
 #include <heddle/base/parallel.h>
-#include <heddle/sggx/principal.h>
+#include <heddle/sggx/eigen.h>
+#include <heddle/sggx/pack.h>
 
 #include <algorithm>
 #include <cmath>
@@ -38,7 +39,7 @@ public:
 
     [[nodiscard]] Voxel pack(const VoxelBlock& block, std::size_t v, std::size_t l) const {
         const Lobe& lobe = block.lobes[l];
-        const SggxMatrix S = matrix_from_packed(lobe.sggx);
+        const SggxMatrix S = unpack(lobe.sggx);
         const Vec3f axis = principal_direction(S);
         const Coverage& c = block.coverage[v];
         Voxel out{};

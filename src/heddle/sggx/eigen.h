@@ -84,6 +84,35 @@ struct SymmetricMatrixd {
             {p * c + q * s, q * c - p * s, v}};
 }
 
+/// An eigenvector, and where its eigenvalue stands among the three.
+struct ApartAxis {
+    Vec3d axis;           ///< unit; zero where all three are equal
+    bool largest = false; ///< else the smallest
+};
+
+/// The eigenvector whose eigenvalue stands farthest from the other two.           [Eberly 2014]
+[[nodiscard]] HEDDLE_HD inline ApartAxis find_apart_axis(const SymmetricMatrixd& M) {
+    const double mean = (M.xx + M.yy + M.zz) * (1.0 / 3.0);
+    SymmetricMatrixd B{M.xx - mean, M.yy - mean, M.zz - mean, M.xy, M.xz, M.yz};
+    const double square =
+        (B.xx * B.xx + B.yy * B.yy + B.zz * B.zz) + 2.0 * (B.xy * B.xy + B.xz * B.xz + B.yz * B.yz);
+    if (!(square > 0.0)) return {};
+    const double scale = 1.0 / std::sqrt(square * (1.0 / 6.0)); // eigenvalues now in [-2, 2]
+    B = {B.xx * scale, B.yy * scale, B.zz * scale, B.xy * scale, B.xz * scale, B.yz * scale};
+    const double determinant = B.xx * (B.yy * B.zz - B.yz * B.yz) -
+                               B.xy * (B.xy * B.zz - B.yz * B.xz) +
+                               B.xz * (B.xy * B.yz - B.yy * B.xz);
+    const double h = 0.5 * (determinant < 0.0 ? -determinant : determinant);
+    const double t = largest_cubic_root(h < 1.0 ? h : 1.0);
+    const double root = determinant < 0.0 ? -t : t;
+    return {null_vector({B.xx - root, B.yy - root, B.zz - root, B.xy, B.xz, B.yz}),
+            !(determinant < 0.0)};
+}
+
+[[nodiscard]] HEDDLE_HD inline SymmetricMatrixd to_double(const SymmetricMatrix& A) {
+    return {A.xx, A.yy, A.zz, A.xy, A.xz, A.yz};
+}
+
 } // namespace detail
 
 /// Eigenvalues and axes of `A`, by + - * / sqrt only: the same bits on host and device.
@@ -95,26 +124,14 @@ struct SymmetricMatrixd {
 /// @param A  entries finite
 /// @return   values descending; axes orthonormal to 1e-9, arbitrary where values are equal
 [[nodiscard]] HEDDLE_HD inline SymmetricEigen decompose(const SymmetricMatrix& A) {
-    const detail::SymmetricMatrixd M{A.xx, A.yy, A.zz, A.xy, A.xz, A.yz};
-    const double mean = (M.xx + M.yy + M.zz) * (1.0 / 3.0);
-    detail::SymmetricMatrixd B{M.xx - mean, M.yy - mean, M.zz - mean, M.xy, M.xz, M.yz};
-    const double square =
-        (B.xx * B.xx + B.yy * B.yy + B.zz * B.zz) + 2.0 * (B.xy * B.xy + B.xz * B.xz + B.yz * B.yz);
-    if (!(square > 0.0)) {
+    const detail::SymmetricMatrixd M = detail::to_double(A);
+    const detail::ApartAxis apart = detail::find_apart_axis(M);
+    if (apart.axis == Vec3d{}) {
+        const double mean = (M.xx + M.yy + M.zz) * (1.0 / 3.0);
         return {{mean, mean, mean}, {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
     }
-    const double scale = 1.0 / std::sqrt(square * (1.0 / 6.0)); // eigenvalues now in [-2, 2]
-    B = {B.xx * scale, B.yy * scale, B.zz * scale, B.xy * scale, B.xz * scale, B.yz * scale};
-    const double determinant = B.xx * (B.yy * B.zz - B.yz * B.yz) -
-                               B.xy * (B.xy * B.zz - B.yz * B.xz) +
-                               B.xz * (B.xy * B.yz - B.yy * B.xz);
-    const double h = 0.5 * (determinant < 0.0 ? -determinant : determinant);
-    const double t = detail::largest_cubic_root(h < 1.0 ? h : 1.0);
-    const double root = determinant < 0.0 ? -t : t;
-    const Vec3d v = detail::null_vector({B.xx - root, B.yy - root, B.zz - root, B.xy, B.xz, B.yz});
-
-    const SymmetricEigen e = detail::decompose_plane(M, v);
-    if (determinant < 0.0) return e; // the root that stands apart is the smallest
+    const SymmetricEigen e = detail::decompose_plane(M, apart.axis);
+    if (!apart.largest) return e;
     return {{e.value[2], e.value[0], e.value[1]}, {e.axis[2], e.axis[0], e.axis[1]}};
 }
 
@@ -140,7 +157,8 @@ struct SymmetricMatrixd {
 /// @return   its component of largest magnitude is positive (the first of equals); the x axis where
 ///           all eigenvalues are equal
 [[nodiscard]] HEDDLE_HD inline Vec3f principal_direction(const SymmetricMatrix& M) {
-    const Vec3d d = decompose(M).axis[0];
+    const detail::ApartAxis apart = detail::find_apart_axis(detail::to_double(M));
+    const Vec3d d = apart.largest ? apart.axis : decompose(M).axis[0]; // needles need no plane
     const Vec3d size{std::fabs(d.x), std::fabs(d.y), std::fabs(d.z)};
     const double lead = (size.x >= size.y && size.x >= size.z) ? d.x : size.y >= size.z ? d.y : d.z;
     return to_float(lead < 0.0 ? d * -1.0 : d);

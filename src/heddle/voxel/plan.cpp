@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace heddle {
 namespace {
@@ -101,7 +102,23 @@ void check_options(const VoxelizeOptions& o) {
     if (o.samples < 0) bad(str("samples is ", o.samples), "use 0 or more");
 }
 
-void check_geometry(const Geometry& geometry, const Bounds& whole) {
+/// False where all points of each set of curves and each mesh are one: a radius is no extent.
+bool has_extent(const Geometry& geometry) {
+    const auto differ = [](const std::vector<Vec3f>& points) {
+        return std::adjacent_find(points.begin(), points.end(), std::not_equal_to<>()) !=
+               points.end();
+    };
+    return std::any_of(geometry.curves.begin(), geometry.curves.end(),
+                       [&](const CurveSet& set) { return differ(set.points); }) ||
+           std::any_of(geometry.meshes.begin(), geometry.meshes.end(),
+                       [&](const Mesh& mesh) { return differ(mesh.positions); });
+}
+
+void check_geometry(const Geometry& geometry) {
+    if (!has_extent(geometry)) {
+        throw Error(ErrorCode::BadFile, str("voxelize: '", geometry.name, "' has no extent"),
+                    "check the file with heddle info");
+    }
     if (geometry.materials.size() > 256) {
         bad(str(geometry.materials.size(), " materials in '", geometry.name, "' (limit 256)"),
             "merge some, or voxelize parts of it");
@@ -112,10 +129,6 @@ void check_geometry(const Geometry& geometry, const Bounds& whole) {
         const bool given = (yarn != nullptr && yarn->radius > 0.0f) || !set.radius.empty() ||
                            set.default_radius > 0.0f;
         if (!given) bad(str("'", geometry.name, "' names no radius"), "give --yarn-radius");
-    }
-    const Vec3d size = whole.size();
-    if (whole.empty() || !(std::max({size.x, size.y, size.z}) > 0.0)) {
-        bad(str("'", geometry.name, "' has no extent"), "check the file with heddle info");
     }
 }
 
@@ -139,9 +152,10 @@ void choose_range(VoxelizePlan& plan, const std::string& name) {
     const double factor = std::max(std::cbrt(total / kMaxVoxels), most / kMaxAxis);
     const Vec3d& h = plan.lattice.voxel_size;
     const bool many = total > kMaxVoxels;
-    bad(str("voxel size ", h.x, " needs ", many ? total : most, many ? " voxels" : " voxels from the origin",
-            " over '", name, "' (limit 2^", many ? 40 : 30, ")"),
-        str("use at least ", h.x * factor * 1.01));
+    bad(str("voxel size ", h.x, " needs ", many ? total : most,
+            many ? " voxels" : " voxels from the origin", " over '", name, "' (limit 2^",
+            many ? 40 : 30, ")"),
+        std::isfinite(factor) ? str("use at least ", h.x * factor * 1.01) : "use larger ones");
 }
 
 /// Runs a hashed sample of the blocks and scales what came out by the primitives they hold.
@@ -191,8 +205,8 @@ std::int64_t geometry_bytes(const Geometry& geometry) {
                bytes_of(s.color);
     }
     for (const Mesh& m : geometry.meshes) {
-        sum += bytes_of(m.positions) + bytes_of(m.normals) + bytes_of(m.tangents) + bytes_of(m.uvs) +
-               bytes_of(m.triangles);
+        sum += bytes_of(m.positions) + bytes_of(m.normals) + bytes_of(m.tangents) +
+               bytes_of(m.uvs) + bytes_of(m.triangles);
     }
     for (const Texture& t : geometry.textures) sum += bytes_of(t.texels);
     return sum;
@@ -206,14 +220,15 @@ void plan_memory(VoxelizePlan& plan, const VoxelizeContext& context, const Bins&
         kProgramBytes + geometry_bytes(context.geometry) + context.fibers.byte_count();
     const std::int64_t counts = bins.byte_count();
     const std::int64_t workers = thread_count() * BlockWorker::byte_count(context.fit);
-    const VoxelGridFields& fields = context.fit.fields;
+    const VoxelGridFields& fields = plan.fields;
     const auto per_lobe = static_cast<std::int64_t>(
         sizeof(Lobe) + (fields.albedo || fields.surface ? sizeof(LobeMaps) : 0) +
         (fields.tangents ? sizeof(PackedSggx) : 0));
     const auto result = plan.leaves * static_cast<std::int64_t>(sizeof(VoxelLeaf)) +
                         plan.voxels * static_cast<std::int64_t>(sizeof(Coverage) + 1) +
                         plan.lobes * per_lobe;
-    const std::int64_t writer = plan.leaves * context.options.writer_bytes_per_leaf;
+    const std::int64_t writer =
+        context.options.writer_bytes + plan.leaves * context.options.writer_bytes_per_leaf;
     const auto entries = static_cast<std::int64_t>(bins.total_entries() * sizeof(Primitive));
 
     const auto peak = [&](std::int64_t kept, std::int64_t lists) {
@@ -226,10 +241,11 @@ void plan_memory(VoxelizePlan& plan, const VoxelizeContext& context, const Bins&
     plan.batches = entries == 0 ? 1 : (entries + lists - 1) / lists;
     plan.peak_bytes = peak(kept, std::min(entries, lists));
     if (plan.peak_bytes > limit && context.options.memory_bytes != 0) {
-        throw Error(ErrorCode::OutOfMemory,
-                    str("voxelize: ", limit / 1048576, " MiB of memory is not enough for about ",
-                        plan.voxels, " voxels"),
-                    str("give at least ", plan.peak_bytes / 1048576 + 1, "M, or use larger voxels"));
+        throw Error(
+            ErrorCode::OutOfMemory,
+            str("voxelize: ", limit / 1048576, " MiB of memory is not enough for about ",
+                plan.voxels, " voxels"),
+            str("give at least ", plan.peak_bytes / 1048576 + 1, "M, or use larger voxels"));
     }
 }
 
@@ -237,8 +253,8 @@ void plan_memory(VoxelizePlan& plan, const VoxelizeContext& context, const Bins&
 
 VoxelizePlan plan_voxelize(const Geometry& geometry, const VoxelizeOptions& options) {
     check_options(options);
+    check_geometry(geometry);
     const Bounds whole = bounds_of(geometry);
-    check_geometry(geometry, whole);
     VoxelizePlan plan;
     plan.lattice = choose_lattice(options, whole);
     plan.bounds = whole;
@@ -255,6 +271,7 @@ VoxelizePlan plan_voxelize(const Geometry& geometry, const VoxelizeOptions& opti
     const VoxelizeContext context(geometry, options, plan.lattice, plan.voxel_lo, plan.voxel_hi);
     const Progress silent;
     const Bins bins(context.fibers, context.triangles, context.range, silent);
+    plan.fields = context.fit.fields;
     plan.block_voxels = kBlockVoxels;
     plan.blocks = static_cast<std::int64_t>(bins.blocks().size());
     plan.primitives =

@@ -2,7 +2,7 @@
 
 #include <heddle/base/parallel.h>
 #include <heddle/base/random.h>
-#include <heddle/sggx/principal.h>
+#include <heddle/sggx/pack.h>
 #include <heddle/voxel/voxel_grid.h>
 
 #include <algorithm>
@@ -18,19 +18,7 @@ namespace heddle::testing {
 inline PackedSggx needle(Vec3f d, float w = 0.15f) {
     const float k = 0.9f, e = w * w * k;
     const auto entry = [&](int a, int b) { return (k - e) * d[a] * d[b] + (a == b ? e : 0.0f); };
-    PackedSggx p;
-    float sigma[3];
-    for (int a = 0; a < 3; ++a) {
-        sigma[a] = std::sqrt(entry(a, a));
-        p.sigma[a] = static_cast<std::uint8_t>(std::ceil(sigma[a] * 255.0f));
-    }
-    const int pairs[3][2] = {{0, 1}, {0, 2}, {1, 2}};
-    for (int i = 0; i < 3; ++i) {
-        const int a = pairs[i][0], b = pairs[i][1];
-        const float r = 0.97f * entry(a, b) / (sigma[a] * sigma[b]); // keeps it positive definite
-        p.r[i] = static_cast<std::uint8_t>(std::lround((r + 1.0f) * 127.5f));
-    }
-    return p;
+    return pack({entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)});
 }
 
 struct TestVoxel {

@@ -33,15 +33,16 @@ struct VoxelizeOptions {
     std::int64_t samples = 0;      ///< per span, with CoverageMode::Mask; 0: two a subvoxel
     std::int64_t memory_bytes = 0; ///< peak resident size that is kept; 0: half of what is free
     std::uint64_t seed = 0;
-    std::int64_t writer_bytes_per_leaf = 0; ///< what the caller will take per leaf while it walks the
-                                            ///< result (io/vdb says how much); part of the plan
-    std::string spool_dir = "."; ///< where finished blocks go when memory is short
-    std::string command;         ///< kept in the result
+    std::int64_t writer_bytes = 0; ///< what the caller will take to write the result, and per leaf
+    std::int64_t writer_bytes_per_leaf = 0; ///< (io/vdb/predict_vdb.h says how much); in the plan
+    std::string spool_dir = ".";            ///< where finished blocks go when memory is short
+    std::string command;                    ///< kept in the result
 };
 
 /// What the voxelizer would do, and what it would cost.
 struct VoxelizePlan {
     Lattice lattice;
+    VoxelGridFields fields;         ///< optional data that the result will hold
     Bounds bounds;                  ///< of what is voxelized, scene units
     Vec3i voxel_lo, voxel_hi;       ///< voxel index range [lo, hi)
     std::int32_t block_voxels = 32; ///< along a block edge
@@ -58,14 +59,14 @@ struct VoxelizePlan {
     std::int64_t leaves = 0;
     std::int64_t touched_subvoxels = 0;
     std::int64_t peak_bytes = 0; ///< predicted peak resident size, the caller's share included
-    bool spool = false;            ///< finished blocks wait in a temporary file
+    bool spool = false;          ///< finished blocks wait in a temporary file
     double seconds =
         0.0; ///< predicted, on `thread_count()` threads of the machine that was measured
 };
 
 /// Plans the work: grid, blocks, batches, predicted bytes and time.
-/// @throws Error  InvalidArgument: voxel size not finite or <= 0, more than 2^40 voxels or 2^30 along
-///                an axis, an object without extent; OutOfMemory: `memory_bytes` below the least
+/// @throws Error  BadFile: an object without extent; InvalidArgument: voxel size not finite or <= 0,
+///                more than 2^40 voxels or 2^30 along an axis; OutOfMemory: `memory_bytes` below the least
 [[nodiscard]] VoxelizePlan plan_voxelize(const Geometry& geometry, const VoxelizeOptions& options);
 
 /// Voxelizes `geometry`: same bits for any thread count, memory limit and batch size; a region

@@ -1,9 +1,9 @@
 #include <heddle/io/image/image.h>
 
 #include <heddle/base/error.h>
-#include <heddle/io/image/file_bytes.h>
+#include <heddle/io/input_file.h>
+#include <heddle/io/output_file.h>
 
-#include <array>
 #include <limits>
 #include <memory>
 
@@ -50,7 +50,8 @@ void check_size(std::int64_t width, std::int64_t height, std::int64_t channels, 
 } // namespace
 
 Texture read_image(const std::filesystem::path& path) {
-    return decode_image(read_bytes(path), path.string());
+    const std::string bytes = read_whole_file(path.string());
+    return decode_image(std::as_bytes(std::span{bytes}), path.string());
 }
 
 Texture decode_image(std::span<const std::byte> bytes, const std::string& name) {
@@ -103,8 +104,9 @@ void write_png(const std::filesystem::path& path,
                std::int32_t channels,
                std::span<const std::uint8_t> texels) {
     const std::vector<std::uint8_t> png = encode_png(width, height, channels, texels);
-    const std::array parts{std::as_bytes(std::span{png})};
-    replace_file(path, parts);
+    OutputFile file(path.string());
+    file.write_array(std::span<const std::uint8_t>(png));
+    file.commit();
 }
 
 } // namespace heddle

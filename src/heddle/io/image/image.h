@@ -31,8 +31,8 @@ namespace heddle {
                                                    std::int32_t channels,
                                                    std::span<const std::uint8_t> texels);
 
-/// Writes a PNG file beside `path` and renames it into place; arguments as for encode_png.
-/// @throws InvalidArgument; BadFile where it cannot be written (an old file stays as it was)
+/// Writes a PNG file, whole or not at all (see OutputFile); arguments as for encode_png.
+/// @throws InvalidArgument; NotFound or CannotWrite where it cannot be written
 void write_png(const std::filesystem::path& path,
                std::int32_t width,
                std::int32_t height,

@@ -2,9 +2,9 @@
 
 #include <heddle/base/error.h>
 #include <heddle/io/image/image.h>
+#include <heddle/io/input_file.h>
 
 #include <algorithm>
-#include <cctype>
 
 namespace heddle {
 namespace {
@@ -17,8 +17,7 @@ bool is_file(const fs::path& path) {
 }
 
 bool is_image_suffix(const fs::path& path) {
-    std::string suffix = path.extension().string();
-    for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const std::string suffix = suffix_of(path.string());
     return suffix == ".png" || suffix == ".jpg" || suffix == ".jpeg";
 }
 

@@ -1,7 +1,7 @@
 #include <heddle/io/mesh/gltf_model.h>
 
 #include <heddle/base/error.h>
-#include <heddle/io/image/file_bytes.h>
+#include <heddle/io/input_file.h>
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMaxNesting = 64; // of JSON; tinygltf recurses once per level
+constexpr std::uint64_t kMostBytes = 0xFFFFFFFF; // a .glb counts its bytes in 32 bits
+constexpr int kMaxNesting = 64;                  // of JSON; tinygltf recurses once per level
 
 /// tinygltf also looks into the working folder; only the model's own may answer.
 struct Files {
@@ -29,9 +30,8 @@ struct Files {
     static bool
     read(std::vector<unsigned char>* out, std::string* error, const std::string& name, void*) {
         try {
-            const std::vector<std::byte> bytes = read_bytes(name);
-            const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
-            out->assign(data, data + bytes.size());
+            const std::string bytes = read_whole_file(name, kMostBytes);
+            out->assign(bytes.begin(), bytes.end());
             return true;
         } catch (const Error& e) {
             *error = e.what();
@@ -52,6 +52,12 @@ bool keep_image(tinygltf::Image* image,
                 void*) {
     if (image->bufferView < 0 && image->uri.empty()) image->image.assign(bytes, bytes + size);
     return true;
+}
+
+bool starts_as_json(std::span<const std::byte> bytes) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    return first != std::string_view::npos && text[first] == '{';
 }
 
 bool is_nested_too_deep(std::string_view json) {
@@ -134,16 +140,18 @@ Array array_in(const GltfModel& model,
     return {bytes.data() + offset, stride, static_cast<std::size_t>(size)};
 }
 
-std::string one_line(std::string text) {
-    while (!text.empty() && text.back() == '\n') text.pop_back();
-    std::replace(text.begin(), text.end(), '\n', ' ');
+/// The parser's words without the name of its exception and its full stop.
+std::string parser_words(std::string text) {
+    while (!text.empty() && (text.back() == '\n' || text.back() == '.')) text.pop_back();
+    if (text.starts_with("[json.exception")) text.erase(0, text.find("] ") + 2);
     return text.empty() ? "is not a glTF 2.0 file" : text;
 }
 
 } // namespace
 
 GltfModel::GltfModel(const fs::path& path) : path_(path) {
-    parse(read_bytes(path));
+    const std::string bytes = read_whole_file(path.string(), kMostBytes);
+    parse(std::as_bytes(std::span{bytes}));
     for (const auto& buffer : model_.buffers) held_bytes_ += buffer.data.size();
     for (const std::string& name : model_.extensionsRequired) {
         if (name == "KHR_draco_mesh_compression" || name == "EXT_meshopt_compression")
@@ -165,9 +173,9 @@ std::string_view GltfModel::json_in(std::span<const std::byte> bytes, bool binar
 }
 
 void GltfModel::parse(std::span<const std::byte> bytes) {
-    if (bytes.size() > std::numeric_limits<std::uint32_t>::max())
-        fail(str("has ", bytes.size(), " bytes, glTF has fewer than 2^32"));
     const bool binary = bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
+    if (!binary && !starts_as_json(bytes))
+        fail("is not a glTF file: it starts with neither 'glTF' nor '{'");
     if (is_nested_too_deep(json_in(bytes, binary)))
         fail(str("JSON is nested deeper than ", kMaxNesting, " levels"));
     const std::string folder = path_.has_parent_path() ? path_.parent_path().string() : ".";
@@ -183,7 +191,7 @@ void GltfModel::parse(std::span<const std::byte> bytes) {
     const bool loaded =
         binary ? loader.LoadBinaryFromMemory(&model_, &error, &warning, data, size, folder)
                : loader.LoadASCIIFromString(&model_, &error, &warning, text, size, folder);
-    if (!loaded || !error.empty()) fail(one_line(error));
+    if (!loaded || !error.empty()) fail(parser_words(error));
 }
 
 void GltfModel::fail(const std::string& what) const {

@@ -134,7 +134,7 @@ TEST_F(ReadObj, FilesWithoutGeometryAreErrors) {
     EXPECT_NE(error("just some words\nt a 2147483647/0/0\n").find("no face or line"),
               std::string::npos);
     EXPECT_NE(error(std::string("BCC\x44\0\0", 6)).find("byte 4: a zero byte"), std::string::npos);
-    EXPECT_NE(error_of([&] { (void)read_obj(folder_); }).find("is a folder"), std::string::npos);
+    EXPECT_NE(error_of([&] { (void)read_obj(folder_); }).find("is a directory"), std::string::npos);
     EXPECT_NE(error_of([&] { (void)read_obj(folder_ / "no.obj"); }).find("no such file"),
               std::string::npos);
 }

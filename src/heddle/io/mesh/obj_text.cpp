@@ -1,7 +1,7 @@
 #include <heddle/io/mesh/obj_text.h>
 
 #include <heddle/base/error.h>
-#include <heddle/io/image/file_bytes.h>
+#include <heddle/io/input_file.h>
 
 #include <algorithm>
 #include <array>
@@ -157,12 +157,8 @@ std::size_t statement_end(std::string& text, std::size_t start, std::int64_t& li
 } // namespace
 
 ObjText read_obj_text(const std::filesystem::path& path) {
-    std::string text;
-    {
-        const std::vector<std::byte> bytes = read_bytes(path);
-        text.assign(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-        text.push_back('\n'); // every statement now ends with one
-    }
+    std::string text = read_whole_file(path.string(), kAnySize);
+    text.push_back('\n'); // every statement now ends with one
     if (const std::size_t zero = text.find('\0'); zero != std::string::npos)
         throw Error(ErrorCode::BadFile, "a zero byte stands in it, an .obj file is text",
                     "check what kind of file it is",

@@ -1,7 +1,7 @@
 #include <heddle/io/mesh/ply_data.h>
 
 #include <heddle/base/error.h>
-#include <heddle/io/image/file_bytes.h>
+#include <heddle/io/input_file.h>
 
 #include <algorithm>
 #include <array>
@@ -61,8 +61,7 @@ double decode(PlyType type, const std::array<std::byte, 8>& raw) {
     return 0.0;
 }
 
-bool is_blank(std::byte b) {
-    const char c = static_cast<char>(b);
+bool is_blank(char c) {
     return c == ' ' || c == '\n' || c == '\r' || c == '\t';
 }
 
@@ -78,15 +77,15 @@ int PlyElement::find(std::initializer_list<const char*> names) const {
 }
 
 PlyData::PlyData(const std::filesystem::path& path)
-    : path_(path.string()), bytes_(read_bytes(path)) {
+    : path_(path.string()), text_(read_whole_file(path.string(), kAnySize)) {
     read_header();
 }
 
 void PlyData::fail(const std::string& what) const {
     Where where{.path = path_};
     if (format_ == PlyFormat::Ascii) {
-        const auto here = bytes_.begin() + static_cast<std::ptrdiff_t>(at_);
-        where.line = 1 + std::count(bytes_.begin(), here, std::byte{'\n'});
+        const auto here = text_.begin() + static_cast<std::ptrdiff_t>(at_);
+        where.line = 1 + std::count(text_.begin(), here, '\n');
     } else {
         where.offset = static_cast<std::int64_t>(at_);
     }
@@ -94,8 +93,8 @@ void PlyData::fail(const std::string& what) const {
 }
 
 void PlyData::read_header() {
-    const auto text = std::string_view(reinterpret_cast<const char*>(bytes_.data()), bytes_.size());
-    if (text.substr(0, 3) != "ply" || text.size() < 4 || !is_blank(bytes_[3]))
+    const std::string_view text = text_;
+    if (text.substr(0, 3) != "ply" || text.size() < 4 || !is_blank(text_[3]))
         fail("does not begin with 'ply'");
     at_ = std::min(text.find('\n'), text.size() - 1) + 1;
     while (true) {
@@ -156,27 +155,27 @@ void PlyData::read_header_line(const std::string& line) {
 }
 
 double PlyData::next_number() {
-    while (at_ < bytes_.size() && is_blank(bytes_[at_])) ++at_;
-    if (at_ == bytes_.size()) fail("ends before its last value");
-    const char* start = reinterpret_cast<const char*>(bytes_.data()) + at_;
-    const char* const end = reinterpret_cast<const char*>(bytes_.data()) + bytes_.size();
+    while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
+    if (at_ == text_.size()) fail("ends before its last value");
+    const char* start = text_.data() + at_;
+    const char* const end = text_.data() + text_.size();
     if (*start == '+') ++start;
     double value = 0.0;
     const auto [stop, error] = std::from_chars(start, end, value);
-    if (error != std::errc{} || (stop != end && !is_blank(std::byte(*stop)))) {
-        const char* word = std::find_if(start, end, [](char c) { return is_blank(std::byte(c)); });
+    if (error != std::errc{} || (stop != end && !is_blank(*stop))) {
+        const char* word = std::find_if(start, end, is_blank);
         fail(str("'", std::string(start, std::min(word, start + 40)), "' is no number"));
     }
-    at_ = static_cast<std::size_t>(stop - reinterpret_cast<const char*>(bytes_.data()));
+    at_ = static_cast<std::size_t>(stop - text_.data());
     return value;
 }
 
 double PlyData::next(PlyType type) {
     if (format_ == PlyFormat::Ascii) return next_number();
     const std::size_t size = size_of(type);
-    if (bytes_.size() - at_ < size) fail("ends before its last value");
+    if (text_.size() - at_ < size) fail("ends before its last value");
     std::array<std::byte, 8> raw{};
-    std::copy_n(bytes_.begin() + static_cast<std::ptrdiff_t>(at_), size, raw.begin());
+    std::memcpy(raw.data(), text_.data() + at_, size);
     const bool is_little = format_ == PlyFormat::LittleEndian;
     if (is_little != (std::endian::native == std::endian::little))
         std::reverse(raw.begin(), raw.begin() + static_cast<std::ptrdiff_t>(size));
@@ -191,7 +190,7 @@ std::uint64_t PlyData::least_bytes(PlyType type) const {
 
 std::uint64_t PlyData::next_count(const PlyProperty& property) {
     const double count = next(property.count_type);
-    const std::uint64_t left = bytes_.size() - at_ + 1; // the last number of a text ends with it
+    const std::uint64_t left = text_.size() - at_ + 1; // the last number of a text ends with it
     if (!(count >= 0.0) || count != std::floor(count) ||
         count * static_cast<double>(least_bytes(property.type)) > static_cast<double>(left))
         fail(str("list '", property.name, "' has the length ", count, ", and only ", left - 1,
@@ -208,7 +207,7 @@ void PlyData::check_rows(const PlyElement& element) const {
     std::uint64_t row = 0;
     for (const PlyProperty& p : element.properties)
         row += least_bytes(p.is_list ? p.count_type : p.type);
-    const std::uint64_t left = bytes_.size() - at_ + 1;
+    const std::uint64_t left = text_.size() - at_ + 1;
     if (row > 0 && element.count > left / row)
         fail(str("says ", element.count, " rows of '", element.name, "' of ", row,
                  " bytes or more, and only ", left - 1, " bytes are left"));

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -62,7 +61,7 @@ private:
     [[nodiscard]] std::uint64_t least_bytes(PlyType type) const;
 
     std::string path_;
-    std::vector<std::byte> bytes_;
+    std::string text_; ///< the whole file, binary or not
     std::size_t at_ = 0;
     PlyFormat format_ = PlyFormat::Ascii;
     bool has_format_ = false;

@@ -142,7 +142,7 @@ TEST_F(ReadPly, WrongHeadersAreErrors) {
               std::string::npos);
     EXPECT_NE(error(header("ascii", "element rows 18446744073709551615\n")).find("no face or edge"),
               std::string::npos);
-    EXPECT_NE(error_of([&] { (void)read_ply(folder_); }).find("is a folder"), std::string::npos);
+    EXPECT_NE(error_of([&] { (void)read_ply(folder_); }).find("is a directory"), std::string::npos);
 }
 
 TEST_F(ReadPly, DamagedFilesNeverCrash) {

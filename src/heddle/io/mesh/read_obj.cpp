@@ -1,7 +1,7 @@
 #include <heddle/io/mesh/read_mesh.h>
 
 #include <heddle/base/error.h>
-#include <heddle/io/image/file_bytes.h>
+#include <heddle/io/input_file.h>
 #include <heddle/io/mesh/add_parts.h>
 #include <heddle/io/mesh/obj_material.h>
 #include <heddle/io/mesh/obj_text.h>
@@ -34,8 +34,7 @@ std::string read_libraries(const fs::path& folder, const ObjText& obj, Geometry&
                 out.notes.push_back(str("material library '", name, "' is missing"));
                 continue;
             }
-            const std::vector<std::byte> bytes = read_bytes(folder / name);
-            text.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+            text += read_whole_file((folder / name).string());
             text.push_back('\n');
         }
     }
@@ -178,13 +177,6 @@ void add_lines(const tinyobj::ObjReader& obj, const fs::path& path, Geometry& ou
     out.curves.push_back(std::move(lines));
 }
 
-/// The parser's words on one line.
-std::string one_line(std::string text) {
-    while (!text.empty() && text.back() == '\n') text.pop_back();
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
-}
-
 } // namespace
 
 Geometry read_obj(const fs::path& path) try {
@@ -197,7 +189,7 @@ Geometry read_obj(const fs::path& path) try {
     tinyobj::ObjReaderConfig config;
     config.vertex_color = false;
     if (!obj.ParseFromString(text.statements, library, config))
-        throw Error(ErrorCode::BadFile, one_line(obj.Error()), "export the file again",
+        throw Error(ErrorCode::BadFile, obj.Error(), "export the file again",
                     {.path = path.string()});
     text = {};
     add_meshes(obj, path, out);

@@ -65,13 +65,8 @@ void expect_sound(const Geometry& g) {
 class RealMesh : public FileTest {
 protected:
     void SetUp() override {
-        FileTest::SetUp();
-        const char* named = std::getenv("HEDDLE_TEST_DATA");
-        const fs::path data =
-            named != nullptr ? named : fs::path(HEDDLE_SOURCE_DIR) / ".." / "shared" / "data";
-        mesh_ = data / "mesh";
-        if (!fs::is_directory(mesh_))
-            GTEST_SKIP() << "no folder '" << mesh_.string() << "'; set HEDDLE_TEST_DATA";
+        mesh_ = testing::find_data("mesh");
+        if (mesh_.empty()) GTEST_SKIP() << "no meshes; set HEDDLE_TEST_DATA";
     }
     fs::path unpacked(const std::string& name) const {
         const fs::path packed = mesh_ / (name + ".xz");

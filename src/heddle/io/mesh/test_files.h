@@ -1,53 +1,35 @@
 #pragma once
 
-#include <heddle/base/error.h>
+#include <heddle/io/test_files.h>
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <string>
 
 namespace heddle {
 
-/// A test with a folder of its own, emptied before and removed after.
-class FileTest : public testing::Test {
+/// A test with a folder of its own.
+class FileTest : public ::testing::Test {
 protected:
-    void SetUp() override {
-        const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-        folder_ = std::filesystem::path(testing::TempDir()) /
-                  (std::string("heddle_") + info->test_suite_name() + "_" + info->name());
-        std::filesystem::remove_all(folder_);
-        std::filesystem::create_directories(folder_);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-
     std::filesystem::path write(const std::string& name, const std::string& bytes) const {
-        std::filesystem::remove(folder_ /
-                                name); // ext4 flushes a file that is cut and written again
-        std::ofstream(folder_ / name, std::ios::binary) << bytes;
-        return folder_ / name;
+        return temp_.write(name, bytes);
     }
-
     static std::string bytes_of(const std::filesystem::path& path) {
-        std::ifstream file(path, std::ios::binary);
-        return {std::istreambuf_iterator<char>(file), {}};
+        return testing::slurp(path.string());
     }
 
-    std::filesystem::path folder_;
+    testing::TempFolder temp_;
+    std::filesystem::path folder_ = temp_.path();
 };
 
 /// The text of the Error that `call` throws, which must be one line; "no error" without one.
 inline std::string error_of(const std::function<void()>& call) {
-    try {
-        call();
-    } catch (const Error& e) {
-        EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos) << e.what();
-        return e.what();
-    }
-    return "no error";
+    const std::optional<Error> error = testing::error_of(call);
+    if (!error) return "no error";
+    EXPECT_EQ(std::string(error->what()).find('\n'), std::string::npos) << error->what();
+    return error->what();
 }
 
 /// Calls `read` on every beginning of `whole`, the empty one included, and on `whole` with one

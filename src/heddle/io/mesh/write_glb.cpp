@@ -2,8 +2,8 @@
 
 #include <heddle/base/error.h>
 #include <heddle/geom/bounds.h>
-#include <heddle/io/image/file_bytes.h>
 #include <heddle/io/image/image.h>
+#include <heddle/io/output_file.h>
 
 #include <nlohmann/json.hpp>
 #include <array>
@@ -51,9 +51,10 @@ public:
         head += "JSON" + text;
         append_u32(head, size_);
         head += std::string("BIN\0", 4);
-        std::vector<std::span<const std::byte>> parts{std::as_bytes(std::span{head})};
-        parts.insert(parts.end(), parts_.begin(), parts_.end());
-        replace_file(path, parts);
+        OutputFile file(path.string());
+        file.write(head.data(), head.size());
+        for (const std::span<const std::byte> part : parts_) file.write_array(part);
+        file.commit();
     }
 
 private:

@@ -2,6 +2,7 @@
 
 #include <heddle/base/error.h>
 #include <heddle/base/parallel.h>
+#include <heddle/io/input_file.h>
 #include <heddle/io/vdb/leaf_table.h>
 
 #include <openvdb/io/Compression.h>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
-#include <fstream>
 #include <istream>
 #include <new>
 #include <streambuf>
@@ -240,12 +240,7 @@ void sort_leaves(GridLeaves& grid, const Bytes& in) {
 
 std::vector<char> load(const std::string& path, const GridEntry& grid) {
     std::vector<char> data(static_cast<std::size_t>(grid.end - grid.begin));
-    std::ifstream file(path, std::ios::binary);
-    file.seekg(grid.begin);
-    if (!file.read(data.data(), static_cast<std::streamsize>(data.size()))) {
-        throw Error(ErrorCode::BadFile, str("grid '", grid.name, "' cannot be read"),
-                    "copy the file again", {.path = path, .offset = grid.begin});
-    }
+    InputFile(path).read_at(static_cast<std::uint64_t>(grid.begin), data.data(), data.size());
     return data;
 }
 
@@ -287,9 +282,7 @@ GridLeaves read_grid(const std::string& path, const GridEntry& entry) {
     } catch (const Error&) {
         throw;
     } catch (const std::exception& e) { // openvdb::Exception, std::bad_alloc
-        std::string text = e.what();
-        std::replace(text.begin(), text.end(), '\n', ' ');
-        throw Error(ErrorCode::BadFile, str("grid '", entry.name, "' cannot be read: ", text),
+        throw Error(ErrorCode::BadFile, str("grid '", entry.name, "' cannot be read: ", e.what()),
                     "write the file again", {.path = path, .offset = entry.begin});
     }
 }

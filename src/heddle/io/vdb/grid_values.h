@@ -1,6 +1,7 @@
 #pragma once
 
-#include <heddle/sggx/principal.h>
+#include <heddle/sggx/eigen.h>
+#include <heddle/sggx/pack.h>
 #include <heddle/voxel/voxel_grid.h>
 
 #include <algorithm>
@@ -63,7 +64,7 @@ struct DirectionValues {
         return wanted[b.lobes[l].material];
     }
     [[nodiscard]] Value value(const VoxelBlock& b, std::size_t, std::size_t l) const {
-        return principal_direction(matrix_from_packed(b.lobes[l].sggx));
+        return principal_direction(unpack(b.lobes[l].sggx));
     }
 };
 

@@ -1,5 +1,7 @@
 #include <heddle/base/progress.h>
 #include <heddle/io/vdb/write_vdb.h>
+#include <heddle/sggx/eigen.h>
+#include <heddle/sggx/pack.h>
 #include <heddle/voxel/test_grid.h>
 
 #include <gtest/gtest.h>
@@ -48,7 +50,7 @@ TEST(PlainOpenVdb, DensityAndTangentStandWhereTheVoxelsAre) {
                 const double want = -std::log(1.0 - c) * (1 / 0.5 + 1 / 0.25 + 1 / 2.0) / 3.0;
                 ASSERT_NEAR(density->tree().getValue(xyz), want, 1e-4);
                 const openvdb::Vec3s d = tangent->tree().getValue(xyz);
-                const Vec3f p = principal_direction(matrix_from_packed(block.lobes[v].sggx));
+                const Vec3f p = principal_direction(unpack(block.lobes[v].sggx));
                 ASSERT_NEAR(std::abs(d.x() * p.x + d.y() * p.y + d.z() * p.z), 1.0, 2e-3);
                 ++v;
             }

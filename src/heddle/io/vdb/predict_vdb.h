@@ -12,9 +12,14 @@ struct VdbBytes {
     std::int64_t file = 0;   ///< at most, as long as values do not grow in compression
 };
 
-/// Predicts what write_vdb takes: a table of 88 bytes a leaf (twice while it is gathered from
-/// threads, or while a grid lacks some voxels), one batch of encoded leaves and the stream; no
-/// tree.
+/// What write_vdb takes whatever it writes: one batch of encoded leaves and the stream.
+inline constexpr std::int64_t kVdbWriterBytes = std::int64_t{20} << 20;
+
+/// A row of the table of leaves, twice: while it is gathered from threads, or while a grid lacks
+/// some voxels. There is no tree.
+inline constexpr std::int64_t kVdbWriterBytesPerLeaf = 2 * 88;
+
+/// Predicts what write_vdb takes.
 /// @param leaves  of 8^3 voxels with at least one active
 /// @param voxels  active ones
 /// @param lobes   of all voxels; >= voxels
@@ -32,7 +37,7 @@ struct VdbBytes {
     const double masks = static_cast<double>(leaves * per_leaf_masks) *
                          (3.0 + static_cast<double>(fields_of_lobe) * lobes_per_voxel);
     VdbBytes out;
-    out.memory = leaves * 88 * 2 + (std::int64_t{20} << 20);
+    out.memory = leaves * kVdbWriterBytesPerLeaf + kVdbWriterBytes;
     out.file = voxels * (4 + 6 + 8) + lobes * lobe_bytes + static_cast<std::int64_t>(masks) +
                (std::int64_t{64} << 10);
     return out;

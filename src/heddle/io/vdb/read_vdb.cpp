@@ -5,8 +5,8 @@
 #include <heddle/io/vdb/grid_name.h>
 #include <heddle/io/vdb/grid_reader.h>
 #include <heddle/io/vdb/info_json.h>
-#include <heddle/io/vdb/packed_check.h>
 #include <heddle/io/vdb/vdb_format.h>
+#include <heddle/sggx/pack.h>
 
 #include <algorithm>
 #include <cstring>
@@ -201,7 +201,7 @@ private:
             fail_at(str("names material ", int{lobe.material}, " of ", info_->materials.size()), x,
                     bit, origin);
         }
-        if (!decodes_positive_definite(lobe.sggx)) {
+        if (!is_positive_definite(lobe.sggx)) {
             fail_at("has a lobe that is not positive definite", x, bit, origin);
         }
         block.lobes.push_back(lobe);

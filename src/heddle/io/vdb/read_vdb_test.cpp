@@ -1,6 +1,6 @@
 #include <heddle/base/error.h>
+#include <heddle/io/test_files.h>
 #include <heddle/io/vdb/content_hash.h>
-#include <heddle/io/vdb/packed_check.h>
 #include <heddle/io/vdb/read_vdb.h>
 #include <heddle/io/vdb/write_vdb.h>
 #include <heddle/voxel/test_grid.h>
@@ -18,11 +18,6 @@ namespace fs = std::filesystem;
 
 std::string temp(const char* name) {
     return (fs::temp_directory_path() / name).string();
-}
-
-std::string bytes_of(const std::string& path) {
-    std::ifstream in(path, std::ios::binary);
-    return std::string((std::istreambuf_iterator<char>(in)), {});
 }
 
 void put(const std::string& path, const std::string& bytes) {
@@ -73,15 +68,16 @@ TEST(ReadVdb, AnythingElseThanAVdbIsRefused) {
         EXPECT_NE(read_error(path).find("not a VDB"), std::string::npos) << read_error(path);
     }
     fs::remove(path);
-    EXPECT_NE(read_error(path).find("cannot be read"), std::string::npos);
-    EXPECT_NE(read_error(fs::temp_directory_path().string()).find("folder"), std::string::npos);
+    EXPECT_NE(read_error(path).find("no such file"), std::string::npos);
+    EXPECT_NE(read_error(fs::temp_directory_path().string()).find("is a directory"),
+              std::string::npos);
 }
 
 TEST(ReadVdb, EveryTruncationAndExtraByteIsRefused) {
     const std::string path = temp("heddle_read_cut.vdb");
     Progress progress;
     write_vdb(make_small(), path, progress);
-    const std::string whole = bytes_of(path);
+    const std::string whole = testing::slurp(path);
     ASSERT_EQ(read_error(path), "");
     for (std::size_t n = 0; n < whole.size(); n += n < 300 || n + 50 > whole.size() ? 1 : 173) {
         put(path, whole.substr(0, n));
@@ -96,7 +92,7 @@ TEST(ReadVdb, FlippedBytesGiveAnErrorOrVoxelsNeverACrash) {
     const std::string path = temp("heddle_read_flip.vdb");
     Progress progress;
     write_vdb(make_small(), path, progress);
-    const std::string whole = bytes_of(path);
+    const std::string whole = testing::slurp(path);
     int refused = 0;
     for (std::uint64_t i = 0; i < 300; ++i) {
         std::string bad = whole;
@@ -116,14 +112,6 @@ TEST(ReadVdb, LobesThatCannotBeAreRefused) {
                   g.blocks[0].lobes[3].sggx.r[0] = g.blocks[0].lobes[3].sggx.r[1] = 255;
               }).find("not positive definite"),
               std::string::npos);
-}
-
-TEST(ReadVdb, PackedCheckKnowsTheDeterminant) {
-    EXPECT_TRUE(decodes_positive_definite({{255, 255, 255}, {128, 128, 128}}));
-    EXPECT_FALSE(decodes_positive_definite({{255, 0, 255}, {128, 128, 128}}));
-    EXPECT_FALSE(decodes_positive_definite({{255, 255, 255}, {255, 128, 128}}));
-    EXPECT_FALSE(decodes_positive_definite({{255, 255, 255}, {230, 230, 20}}));
-    EXPECT_TRUE(decodes_positive_definite({{255, 255, 255}, {230, 230, 230}}));
 }
 
 } // namespace

@@ -24,8 +24,8 @@ struct VdbContents {
 
 /// Reads a .vdb's table of contents and checks that every grid lies inside the file and that the
 /// file ends with the last one.
-/// @throws Error  NotFound: no such file or not readable; BadFile: not a VDB, truncated, extra
-///                bytes; Unsupported: older than OpenVDB 2, or written without a table of contents
+/// @throws Error  NotFound: no such file; BadFile: not readable, not a VDB, truncated, extra bytes;
+///                Unsupported: older than OpenVDB 2, or written without a table of contents
 [[nodiscard]] VdbContents read_contents(const std::string& path);
 
 } // namespace heddle

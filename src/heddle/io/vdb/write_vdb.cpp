@@ -1,5 +1,6 @@
 #include <heddle/io/vdb/write_vdb.h>
 
+#include <heddle/io/output_file.h>
 #include <heddle/io/vdb/grid_name.h>
 #include <heddle/io/vdb/grid_writer.h>
 #include <heddle/io/vdb/info_json.h>
@@ -10,56 +11,12 @@
 #include <openvdb/openvdb.h>
 
 #include <cerrno>
-#include <cstring>
-#include <filesystem>
 #include <fstream>
-#include <system_error>
 
 namespace heddle {
 namespace {
 
-/// A file that is written under another name and takes its own when it is whole.
-class OutputFile {
-public:
-    explicit OutputFile(const std::string& path) : path_(path), part_(path + ".part") {
-        buffer_.resize(std::size_t{4} << 20);
-        stream_.rdbuf()->pubsetbuf(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
-        errno = 0;
-        if (std::filesystem::is_directory(path)) fail(EISDIR);
-        stream_.open(part_, std::ios::binary | std::ios::trunc);
-        if (!stream_) fail(errno);
-        stream_.exceptions(std::ios::failbit | std::ios::badbit);
-    }
-    OutputFile(const OutputFile&) = delete;
-    OutputFile& operator=(const OutputFile&) = delete;
-    ~OutputFile() {
-        if (whole_) return;
-        stream_.exceptions(std::ios::goodbit);
-        stream_.close();
-        std::error_code ignored;
-        std::filesystem::remove(part_, ignored);
-    }
-    [[nodiscard]] std::ostream& stream() { return stream_; }
-    void commit() {
-        stream_.close();
-        std::filesystem::rename(part_, path_);
-        whole_ = true;
-    }
-    [[noreturn]] void fail(int error) const {
-        const char* fix =
-            error == ENOSPC ? "free some space" : "check the folder and its permissions";
-        throw Error(error == ENOENT ? ErrorCode::NotFound : ErrorCode::InvalidArgument,
-                    str("cannot be written: ", error != 0 ? std::strerror(error) : "write failed"),
-                    fix, {.path = path_});
-    }
-
-private:
-    std::string path_;
-    std::string part_;
-    std::vector<char> buffer_;
-    std::ofstream stream_;
-    bool whole_ = false;
-};
+constexpr std::size_t kBufferBytes = std::size_t{4} << 20;
 
 openvdb::math::Transform::Ptr make_transform(const Lattice& lattice) {
     using namespace openvdb::math;
@@ -234,17 +191,22 @@ void write_grids(std::ostream& out,
 void write_vdb(const VoxelSource& source, const std::string& path, Progress& progress) {
     OutputFile file(path); // first: an output that cannot be written is said before the work
     openvdb::initialize();
+    const LeafTable table = make_leaf_table(source, progress);
     try {
-        const LeafTable table = make_leaf_table(source, progress);
-        write_grids(file.stream(), source, table, progress);
-        file.commit();
+        std::vector<char> buffer(kBufferBytes); // outlives the stream
+        std::ofstream out;
+        out.exceptions(std::ios::failbit | std::ios::badbit);
+        out.rdbuf()->pubsetbuf(buffer.data(), static_cast<std::streamsize>(buffer.size()));
+        errno = 0;
+        out.open(file.temp_path(), std::ios::binary);
+        write_grids(out, source, table, progress);
+        out.close();
     } catch (const std::ios_base::failure&) {
-        file.fail(errno);
-    } catch (const std::filesystem::filesystem_error& e) {
-        file.fail(e.code().value());
+        file.fail("write", errno != 0 ? errno : EIO);
     } catch (const openvdb::Exception& e) {
         throw Error(ErrorCode::Internal, str("openvdb: ", e.what()), {}, {.path = path});
     }
+    file.commit();
 }
 
 } // namespace heddle
