@@ -2,6 +2,7 @@
 #include <heddle/base/parallel.h>
 #include <heddle/base/random.h>
 #include <heddle/voxel/block_worker.h>
+#include <heddle/voxel/triangle_scan.h>
 #include <heddle/voxel/voxelize.h>
 
 #include <algorithm>
@@ -119,6 +120,24 @@ void check_geometry(const Geometry& geometry, const Bounds& whole) {
     }
 }
 
+/// The box of all hits: the scan snaps vertices to its lattice, and a surface on a voxel's face
+/// belongs above it. @throws Error when the scan's numbers would not hold the coordinates
+Bounds snap_bounds(const Bounds& whole, const Lattice& lattice, const std::string& name) {
+    Bounds box;
+    for (int a = 0; a < 3; ++a) {
+        const double step = lattice.voxel_size[a] / lattice.subvoxels / static_cast<double>(kScanOne);
+        const double far = std::max(std::abs(whole.lo[a]), std::abs(whole.hi[a]));
+        if (far / step >= kMaxAxis * static_cast<double>(kScanOne)) {
+            bad(str("'", name, "' lies ", far / step / static_cast<double>(kScanOne),
+                    " subvoxels from the origin (limit 2^30 for meshes)"),
+                "use larger voxels, or move it closer to the origin");
+        }
+        box.lo[a] = step * std::floor(whole.lo[a] / step + 0.5);
+        box.hi[a] = step * (std::floor(whole.hi[a] / step + 0.5) + 0.5);
+    }
+    return box;
+}
+
 /// Voxels that the region touches. @throws Error when there are too many
 void choose_range(VoxelizePlan& plan, const std::string& name) {
     double total = 1.0;
@@ -203,7 +222,8 @@ void plan_memory(VoxelizePlan& plan, const VoxelizeContext& context, const Bins&
     std::int64_t limit = context.options.memory_bytes;
     if (limit == 0) limit = std::max<std::int64_t>(available_bytes() / 2, std::int64_t{1} << 30);
     const std::int64_t fixed =
-        kProgramBytes + geometry_bytes(context.geometry) + context.fibers.byte_count();
+        kProgramBytes + geometry_bytes(context.geometry) + context.fibers.byte_count() +
+        SurfaceSource::predict_bytes(context.geometry);
     const std::int64_t counts = bins.byte_count();
     const std::int64_t workers = thread_count() * BlockWorker::byte_count(context.fit);
     const VoxelGridFields& fields = context.fit.fields;
@@ -242,10 +262,11 @@ VoxelizePlan plan_voxelize(const Geometry& geometry, const VoxelizeOptions& opti
     VoxelizePlan plan;
     plan.lattice = choose_lattice(options, whole);
     plan.bounds = whole;
+    if (!geometry.meshes.empty()) plan.bounds.grow(snap_bounds(whole, plan.lattice, geometry.name));
     if (options.bounds) {
         for (int a = 0; a < 3; ++a) {
-            plan.bounds.lo[a] = std::max(whole.lo[a], options.bounds->lo[a]);
-            plan.bounds.hi[a] = std::min(whole.hi[a], options.bounds->hi[a]);
+            plan.bounds.lo[a] = std::max(plan.bounds.lo[a], options.bounds->lo[a]);
+            plan.bounds.hi[a] = std::min(plan.bounds.hi[a], options.bounds->hi[a]);
         }
         if (plan.bounds.empty()) {
             bad("the bounds do not meet the object", "heddle info shows where it lies");
