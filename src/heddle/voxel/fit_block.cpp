@@ -33,9 +33,10 @@ std::array<std::uint64_t, 3> project(const VoxelSums& voxel, int n) {
     return column;
 }
 
-HEDDLE_INLINE int hit_subvoxels(const VoxelSums& voxel) {
+HEDDLE_INLINE int hit_subvoxels(const VoxelSums& voxel, int n) {
+    const int words = (n * n * n + 63) / 64;
     int hits = 0;
-    for (const std::uint64_t word : voxel.sub) hits += std::popcount(word);
+    for (int i = 0; i < words; ++i) hits += std::popcount(voxel.sub[static_cast<std::size_t>(i)]);
     return hits;
 }
 
@@ -56,19 +57,50 @@ SymmetricMatrix to_moment(const std::array<std::int64_t, 6>& sums, std::int64_t 
     return {entry(0), entry(1), entry(2), entry(3), entry(4), entry(5)};
 }
 
+/// Fits that were just made: the voxels that one flat triangle passes alone have few different sums.
+class RecentFits {
+public:
+    HEDDLE_INLINE PackedSggx fit(const LobeSums& lobe) {
+        std::uint64_t h = static_cast<std::uint64_t>(lobe.weight);
+        for (const std::int64_t m : lobe.moment) {
+            h = (h ^ static_cast<std::uint64_t>(m)) * 0x9e3779b97f4a7c15u;
+        }
+        Entry& entry = entries_[h >> (64 - kBits)];
+        if (entry.weight != lobe.weight || entry.moment != lobe.moment) {
+            entry = {lobe.moment, lobe.weight, pack(fit_sggx(to_moment(lobe.moment, lobe.weight)))};
+        }
+        return entry.sggx;
+    }
+
+private:
+    static constexpr int kBits = 8;
+    struct Entry {
+        std::array<std::int64_t, 6> moment{};
+        std::int64_t weight = 0; ///< no lobe's: they weigh 1 or more
+        PackedSggx sggx;
+    };
+    std::array<Entry, std::size_t{1} << kBits> entries_;
+};
+
+/// What a block's voxels share while they are fitted.
+struct BlockFit {
+    const BlockSums& sums;
+    const FitOptions& options;
+    VoxelBlock& out;
+    std::vector<const LobeSums*> order{};
+    RecentFits fits{};
+};
+
 std::uint8_t mean8(std::int64_t sum, std::int64_t weight) {
     return static_cast<std::uint8_t>(std::clamp<std::int64_t>((sum + weight / 2) / weight, 0, 255));
 }
 
-HEDDLE_INLINE void append_lobe(const BlockSums& sums,
-                               const VoxelSums& voxel,
-                               const LobeSums& lobe,
-                               std::int64_t total,
-                               const FitOptions& options,
-                               VoxelBlock& out) {
+HEDDLE_INLINE void
+append_lobe(BlockFit& fit, const VoxelSums& voxel, const LobeSums& lobe, std::int64_t total) {
+    const auto& [sums, options, out, order, fits] = fit;
     const auto share = static_cast<double>(lobe.weight) / static_cast<double>(total);
     out.lobes.push_back(
-        {pack(fit_sggx(to_moment(lobe.moment, lobe.weight))),
+        {fit.fits.fit(lobe),
          static_cast<std::uint8_t>(std::max(1, static_cast<int>(share * 255.0 + 0.5))),
          static_cast<std::uint8_t>(lobe.material)});
     const MapSums* maps = sums.find_maps(voxel, lobe);
@@ -93,12 +125,9 @@ HEDDLE_INLINE void append_lobe(const BlockSums& sums,
     }
 }
 
-HEDDLE_INLINE std::int64_t append_voxel(const BlockSums& sums,
-                                        const VoxelSums& voxel,
-                                        const FitOptions& options,
-                                        VoxelBlock& out,
-                                        std::vector<const LobeSums*>& order) {
-    const int hits = hit_subvoxels(voxel);
+HEDDLE_INLINE std::int64_t append_voxel(BlockFit& fit, const VoxelSums& voxel) {
+    auto& [sums, options, out, order, fits] = fit;
+    const int hits = hit_subvoxels(voxel, options.subvoxels);
     out.coverage.push_back(coverage_of(voxel, options, hits));
     order.clear();
     for (const LobeSums* l = &voxel.lobe; l != nullptr; l = sums.next(*l)) order.push_back(l);
@@ -110,7 +139,7 @@ HEDDLE_INLINE std::int64_t append_voxel(const BlockSums& sums,
     }
     std::int64_t total = 0;
     for (const LobeSums* l : order) total += l->weight;
-    for (const LobeSums* l : order) append_lobe(sums, voxel, *l, total, options, out);
+    for (const LobeSums* l : order) append_lobe(fit, voxel, *l, total);
     out.lobe_count.push_back(static_cast<std::uint8_t>(order.size()));
     return hits;
 }
@@ -134,12 +163,8 @@ HEDDLE_INLINE bool is_empty_row(const std::uint16_t* slots) {
 /// Appends a leaf's voxels.
 /// @param base  the leaf's corner relative to the block's lo: a region's block may start inside it
 /// @return      hit subvoxels
-HEDDLE_INLINE std::int64_t append_leaf(const BlockSums& sums,
-                                       Vec3i base,
-                                       const FitOptions& options,
-                                       VoxelLeaf& leaf,
-                                       VoxelBlock& out,
-                                       std::vector<const LobeSums*>& order) {
+HEDDLE_INLINE std::int64_t append_leaf(BlockFit& fit, Vec3i base, VoxelLeaf& leaf) {
+    const BlockSums& sums = fit.sums;
     const Vec3i size = sums.hi() - sums.lo();
     const int z_begin = std::max(0, base.z);
     const int z_end = std::min(size.z, base.z + kLeaf);
@@ -152,7 +177,7 @@ HEDDLE_INLINE std::int64_t append_leaf(const BlockSums& sums,
                 if (slots[z] == BlockSums::kNone) continue;
                 const int bit = (y - base.y) * kLeaf + (z - base.z);
                 leaf.active[static_cast<std::size_t>(x - base.x)] |= std::uint64_t{1} << bit;
-                hits += append_voxel(sums, sums.at_slot(slots[z]), options, out, order);
+                hits += append_voxel(fit, sums.at_slot(slots[z]));
             }
         }
     }
@@ -166,7 +191,7 @@ HEDDLE_CLONES BlockCounts fit_block(const BlockSums& sums,
                                     VoxelBlock& out) {
     constexpr int kAcross = kLeaves + 1;
     BlockCounts counts;
-    std::vector<const LobeSums*> order;
+    BlockFit fit{sums, options, out};
     const Vec3i lo = sums.lo();
     const Vec3i first{floor_to_leaf(lo.x), floor_to_leaf(lo.y), floor_to_leaf(lo.z)};
     for (int cell = 0; cell < kAcross * kAcross * kAcross; ++cell) {
@@ -175,7 +200,7 @@ HEDDLE_CLONES BlockCounts fit_block(const BlockSums& sums,
         leaf.origin = (first + at) * kLeaf;
         leaf.first_voxel = static_cast<std::uint32_t>(out.coverage.size());
         leaf.first_lobe = static_cast<std::uint32_t>(out.lobes.size());
-        counts.subvoxels += append_leaf(sums, leaf.origin - lo, options, leaf, out, order);
+        counts.subvoxels += append_leaf(fit, leaf.origin - lo, leaf);
         if (out.coverage.size() > leaf.first_voxel) out.leaves.push_back(leaf);
     }
     counts.voxels = static_cast<std::int64_t>(out.coverage.size());
