@@ -125,7 +125,8 @@ void check_geometry(const Geometry& geometry, const Bounds& whole) {
 Bounds snap_bounds(const Bounds& whole, const Lattice& lattice, const std::string& name) {
     Bounds box;
     for (int a = 0; a < 3; ++a) {
-        const double step = lattice.voxel_size[a] / lattice.subvoxels / static_cast<double>(kScanOne);
+        const double step =
+            lattice.voxel_size[a] / lattice.subvoxels / static_cast<double>(kScanOne);
         const double far = std::max(std::abs(whole.lo[a]), std::abs(whole.hi[a]));
         if (far / step >= kMaxAxis * static_cast<double>(kScanOne)) {
             bad(str("'", name, "' lies ", far / step / static_cast<double>(kScanOne),
@@ -158,16 +159,21 @@ void choose_range(VoxelizePlan& plan, const std::string& name) {
     const double factor = std::max(std::cbrt(total / kMaxVoxels), most / kMaxAxis);
     const Vec3d& h = plan.lattice.voxel_size;
     const bool many = total > kMaxVoxels;
-    bad(str("voxel size ", h.x, " needs ", many ? total : most, many ? " voxels" : " voxels from the origin",
-            " over '", name, "' (limit 2^", many ? 40 : 30, ")"),
+    bad(str("voxel size ", h.x, " needs ", many ? total : most,
+            many ? " voxels" : " voxels from the origin", " over '", name, "' (limit 2^",
+            many ? 40 : 30, ")"),
         str("use at least ", h.x * factor * 1.01));
 }
 
-/// Runs a hashed sample of the blocks and scales what came out by the primitives they hold.
-void measure_sample(VoxelizePlan& plan, const VoxelizeContext& context, const Bins& bins) {
+/// Runs a hashed sample of the blocks and scales what came out: of fibers by the pieces that the
+/// blocks hold, of surfaces by the blocks (a fine mesh has many triangles and no more voxels).
+/// @return  sums over all blocks
+BlockCounts measure_sample(VoxelizePlan& plan, const VoxelizeContext& context, const Bins& bins) {
     const std::size_t blocks = bins.blocks().size();
-    if (blocks == 0) return;
-    const std::size_t wanted = std::clamp<std::size_t>(blocks / 32, 4, 48);
+    if (blocks == 0) return {};
+    const bool surfaces = context.triangles.count() > context.fibers.span_count();
+    const std::size_t most = surfaces ? 256 : 48; // a block of fibers takes many times longer
+    const std::size_t wanted = std::clamp<std::size_t>(blocks / 32, 4, most);
     const std::size_t stride = std::max<std::size_t>(1, blocks / wanted);
     std::vector<std::uint32_t> chosen;
     double entries = 0.0;
@@ -186,7 +192,8 @@ void measure_sample(VoxelizePlan& plan, const VoxelizeContext& context, const Bi
             counts[s] = worker.run(chosen[s], lists.of(s), silent, out);
         });
     });
-    const double scale = static_cast<double>(bins.total_entries()) / entries;
+    const double scale = surfaces ? static_cast<double>(blocks) / static_cast<double>(chosen.size())
+                                  : static_cast<double>(bins.total_entries()) / entries;
     const auto scaled = [&](std::int64_t BlockCounts::*field) {
         std::int64_t sum = 0;
         for (const BlockCounts& c : counts) sum += c.*field;
@@ -196,6 +203,10 @@ void measure_sample(VoxelizePlan& plan, const VoxelizeContext& context, const Bi
     plan.lobes = scaled(&BlockCounts::lobes);
     plan.leaves = scaled(&BlockCounts::leaves);
     plan.touched_subvoxels = scaled(&BlockCounts::subvoxels);
+    fprintf(stderr, "entries %ld hits %ld\n", scaled(&BlockCounts::triangles),
+            scaled(&BlockCounts::triangle_hits));
+    return {.triangles = scaled(&BlockCounts::triangles),
+            .triangle_hits = scaled(&BlockCounts::triangle_hits)};
 }
 
 template <typename T>
@@ -210,8 +221,8 @@ std::int64_t geometry_bytes(const Geometry& geometry) {
                bytes_of(s.color);
     }
     for (const Mesh& m : geometry.meshes) {
-        sum += bytes_of(m.positions) + bytes_of(m.normals) + bytes_of(m.tangents) + bytes_of(m.uvs) +
-               bytes_of(m.triangles);
+        sum += bytes_of(m.positions) + bytes_of(m.normals) + bytes_of(m.tangents) +
+               bytes_of(m.uvs) + bytes_of(m.triangles);
     }
     for (const Texture& t : geometry.textures) sum += bytes_of(t.texels);
     return sum;
@@ -221,9 +232,9 @@ std::int64_t geometry_bytes(const Geometry& geometry) {
 void plan_memory(VoxelizePlan& plan, const VoxelizeContext& context, const Bins& bins) {
     std::int64_t limit = context.options.memory_bytes;
     if (limit == 0) limit = std::max<std::int64_t>(available_bytes() / 2, std::int64_t{1} << 30);
-    const std::int64_t fixed =
-        kProgramBytes + geometry_bytes(context.geometry) + context.fibers.byte_count() +
-        SurfaceSource::predict_bytes(context.geometry);
+    const std::int64_t fixed = kProgramBytes + geometry_bytes(context.geometry) +
+                               context.fibers.byte_count() +
+                               SurfaceSource::predict_bytes(context.geometry);
     const std::int64_t counts = bins.byte_count();
     const std::int64_t workers = thread_count() * BlockWorker::byte_count(context.fit);
     const VoxelGridFields& fields = context.fit.fields;
@@ -246,10 +257,11 @@ void plan_memory(VoxelizePlan& plan, const VoxelizeContext& context, const Bins&
     plan.batches = entries == 0 ? 1 : (entries + lists - 1) / lists;
     plan.peak_bytes = peak(kept, std::min(entries, lists));
     if (plan.peak_bytes > limit && context.options.memory_bytes != 0) {
-        throw Error(ErrorCode::OutOfMemory,
-                    str("voxelize: ", limit / 1048576, " MiB of memory is not enough for about ",
-                        plan.voxels, " voxels"),
-                    str("give at least ", plan.peak_bytes / 1048576 + 1, "M, or use larger voxels"));
+        throw Error(
+            ErrorCode::OutOfMemory,
+            str("voxelize: ", limit / 1048576, " MiB of memory is not enough for about ",
+                plan.voxels, " voxels"),
+            str("give at least ", plan.peak_bytes / 1048576 + 1, "M, or use larger voxels"));
     }
 }
 
