@@ -57,10 +57,11 @@ BlockCounts BlockWorker::run(std::uint64_t block,
     const auto split = static_cast<std::size_t>(
         std::lower_bound(primitives.begin(), primitives.end(), kTriangleBit) - primitives.begin());
     fibers_.gather(primitives.first(split), sums_, progress);
-    const std::int64_t hits = triangles_.gather(primitives.subspan(split), sums_, progress);
+    const TriangleWork work = triangles_.gather(primitives.subspan(split), sums_, progress);
     BlockCounts counts = fit_block(sums_, context_.fit, out);
     counts.triangles = static_cast<std::int64_t>(primitives.size() - split);
-    counts.triangle_hits = hits;
+    counts.triangle_hits = work.hits;
+    counts.surface_samples = work.samples;
     return counts;
 }
 

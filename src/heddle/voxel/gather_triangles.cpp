@@ -167,7 +167,7 @@ public:
     HEDDLE_INLINE void flush() {
         if (count_ != 0) t_.target.pool(*voxel_, share_[static_cast<std::size_t>(axis_)], count_);
     }
-    [[nodiscard]] std::int64_t hits() const { return hits_; }
+    [[nodiscard]] TriangleWork work() const { return {hits_, 0}; }
 
 private:
     void __attribute__((noinline)) set_up() {
@@ -223,6 +223,7 @@ public:
     /// Pools the last run.
     void __attribute__((noinline)) flush() {
         if (count_ == 0) return;
+        ++samples_;
         SurfaceHit middle{axis_, at_.x, at_.y, at_.z};
         middle.b1 = 0.5f * (first_b1_ + last_b1_);
         middle.b2 = 0.5f * (first_b2_ + last_b2_);
@@ -230,7 +231,7 @@ public:
         t_.target.pool(*voxel_, t_.sampler.sample(setup_, middle),
                        weight_[static_cast<std::size_t>(axis_)] * static_cast<float>(count_));
     }
-    [[nodiscard]] std::int64_t hits() const { return hits_; }
+    [[nodiscard]] TriangleWork work() const { return {hits_, samples_}; }
 
 private:
     void __attribute__((noinline)) set_up() {
@@ -239,6 +240,7 @@ private:
     }
 
     void __attribute__((noinline)) pool_covered(const SurfaceHit& hit) {
+        ++samples_;
         const SurfaceSample s = t_.sampler.sample(setup_, hit);
         if (!s.covered) return;
         t_.target.pool(t_.target.mark(hit.axis, hit.i, hit.j, hit.k), s,
@@ -249,6 +251,7 @@ private:
     TriangleSetup setup_;
     std::array<float, 3> weight_{};
     std::int64_t hits_ = 0;
+    std::int64_t samples_ = 0;
     // the run so far
     VoxelSums* voxel_ = nullptr;
     int axis_ = 0;
@@ -259,16 +262,16 @@ private:
     std::int64_t count_ = 0;
 };
 
-/// Adds a triangle that is not displaced. @return hits
+/// Adds a triangle that is not displaced.
 template <typename Hits>
-std::int64_t gather_flat(const BlockTriangle& t, Vec3d subvoxel_size) {
+TriangleWork gather_flat(const BlockTriangle& t, Vec3d subvoxel_size) {
     const auto corner = [&](std::size_t v) {
         return to_lattice(t.mesh.positions[t.mesh.triangles[t.index][v]], subvoxel_size);
     };
     Hits hits(t);
     scan_triangle(prepare_triangle(corner(0), corner(1), corner(2)), t.target.box(), hits);
     hits.flush();
-    return hits.hits();
+    return hits.work();
 }
 
 } // namespace
@@ -311,30 +314,30 @@ TriangleGatherer::TriangleGatherer(const TriangleSource& triangles,
                                    FitMode fit)
     : triangles_(triangles), surfaces_(surfaces), units_(units), last_(fit == FitMode::Last) {}
 
-std::int64_t TriangleGatherer::gather(std::span<const Primitive> triangles,
+TriangleWork TriangleGatherer::gather(std::span<const Primitive> triangles,
                                       BlockSums& block,
                                       const Progress& progress) {
     const Geometry& geometry = triangles_.geometry();
-    std::int64_t hits = 0;
+    TriangleWork work;
     std::size_t done = 0;
     for (const Primitive id : triangles) {
         if (done++ % 256 == 0) progress.check();
         const TriangleSource::Place at = triangles_.place(id & ~kTriangleBit);
         const Mesh& mesh = geometry.meshes[at.mesh];
         if (surfaces_.sampler().is_displaced(mesh)) {
-            hits += gather_displaced(at, block);
+            work = work + gather_displaced(at, block);
             continue;
         }
         const BlockTriangle triangle{BlockTarget(block, units_.n, mesh.material, last_),
                                      surfaces_.sampler(), units_, mesh, at.triangle};
-        hits += surfaces_.sampler().is_constant(mesh)
-                    ? gather_flat<ConstantHits>(triangle, surfaces_.subvoxel_size())
-                    : gather_flat<ShadedHits>(triangle, surfaces_.subvoxel_size());
+        work = work + (surfaces_.sampler().is_constant(mesh)
+                           ? gather_flat<ConstantHits>(triangle, surfaces_.subvoxel_size())
+                           : gather_flat<ShadedHits>(triangle, surfaces_.subvoxel_size()));
     }
-    return hits;
+    return work;
 }
 
-std::int64_t TriangleGatherer::gather_displaced(TriangleSource::Place at, BlockSums& block) {
+TriangleWork TriangleGatherer::gather_displaced(TriangleSource::Place at, BlockSums& block) {
     const Mesh& mesh = triangles_.geometry().meshes[at.mesh];
     const SurfaceSampler& sampler = surfaces_.sampler();
     const Vec3d size = surfaces_.subvoxel_size();
@@ -366,7 +369,7 @@ std::int64_t TriangleGatherer::gather_displaced(TriangleSource::Place at, BlockS
     displace_triangle(surfaces_.displaced(at.mesh, at.triangle), size,
                       triangles_.displacement(at.mesh), target.box(), sampler.height_of(mesh), emit,
                       scratch_);
-    return hits;
+    return {hits, hits};
 }
 
 } // namespace heddle

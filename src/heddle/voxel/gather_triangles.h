@@ -37,6 +37,16 @@ private:
     std::vector<std::vector<Vec3f>> normals_; ///< per mesh; empty unless displaced without its own
 };
 
+/// What was done for some triangles.
+struct TriangleWork {
+    std::int64_t hits = 0;    ///< centre lines met
+    std::int64_t samples = 0; ///< times that normals and maps were read
+
+    friend TriangleWork operator+(TriangleWork a, TriangleWork b) {
+        return {a.hits + b.hits, a.samples + b.samples};
+    }
+};
+
 /// Adds triangles to blocks. One per thread.
 ///
 /// Every centre line of a column that a triangle meets in a subvoxel of the block sets the column's
@@ -52,13 +62,12 @@ public:
 
     /// Adds what lies in the block of all the triangles.
     /// @param triangles  with kTriangleBit set, ascending
-    /// @return           centre lines met
     /// @throws Error     Cancelled
-    std::int64_t
+    TriangleWork
     gather(std::span<const Primitive> triangles, BlockSums& block, const Progress& progress);
 
 private:
-    std::int64_t gather_displaced(TriangleSource::Place at, BlockSums& block);
+    TriangleWork gather_displaced(TriangleSource::Place at, BlockSums& block);
 
     const TriangleSource& triangles_;
     const SurfaceSource& surfaces_;

@@ -21,6 +21,12 @@ constexpr double kSecondsPerStep = 1.0e-8;
 constexpr double kSecondsPerSubvoxel = 2.0e-9;
 constexpr double kSecondsPerVoxel = 4.0e-7;
 
+/// Of surfaces: a triangle in a block that it was binned to, a column's centre line that it meets,
+/// a read of its maps. Measured on seven meshes (bench/results/ogre_2048.md).
+constexpr double kSecondsPerTriangle = 1.2e-6;
+constexpr double kSecondsPerHit = 1.6e-8;
+constexpr double kSecondsPerSample = 3.5e-7;
+
 /// What the program and its libraries take before any data: measured on `heddle info`.
 constexpr std::int64_t kProgramBytes = 48 << 20;
 
@@ -159,9 +165,8 @@ void choose_range(VoxelizePlan& plan, const std::string& name) {
     const double factor = std::max(std::cbrt(total / kMaxVoxels), most / kMaxAxis);
     const Vec3d& h = plan.lattice.voxel_size;
     const bool many = total > kMaxVoxels;
-    bad(str("voxel size ", h.x, " needs ", many ? total : most,
-            many ? " voxels" : " voxels from the origin", " over '", name, "' (limit 2^",
-            many ? 40 : 30, ")"),
+    bad(str("voxel size ", h.x, " needs ", many ? total : most, many ? " voxels" : " voxels from the origin",
+            " over '", name, "' (limit 2^", many ? 40 : 30, ")"),
         str("use at least ", h.x * factor * 1.01));
 }
 
@@ -192,8 +197,9 @@ BlockCounts measure_sample(VoxelizePlan& plan, const VoxelizeContext& context, c
             counts[s] = worker.run(chosen[s], lists.of(s), silent, out);
         });
     });
-    const double scale = surfaces ? static_cast<double>(blocks) / static_cast<double>(chosen.size())
-                                  : static_cast<double>(bins.total_entries()) / entries;
+    const double scale = surfaces
+                             ? static_cast<double>(blocks) / static_cast<double>(chosen.size())
+                             : static_cast<double>(bins.total_entries()) / entries;
     const auto scaled = [&](std::int64_t BlockCounts::*field) {
         std::int64_t sum = 0;
         for (const BlockCounts& c : counts) sum += c.*field;
@@ -203,10 +209,9 @@ BlockCounts measure_sample(VoxelizePlan& plan, const VoxelizeContext& context, c
     plan.lobes = scaled(&BlockCounts::lobes);
     plan.leaves = scaled(&BlockCounts::leaves);
     plan.touched_subvoxels = scaled(&BlockCounts::subvoxels);
-    fprintf(stderr, "entries %ld hits %ld\n", scaled(&BlockCounts::triangles),
-            scaled(&BlockCounts::triangle_hits));
     return {.triangles = scaled(&BlockCounts::triangles),
-            .triangle_hits = scaled(&BlockCounts::triangle_hits)};
+            .triangle_hits = scaled(&BlockCounts::triangle_hits),
+            .surface_samples = scaled(&BlockCounts::surface_samples)};
 }
 
 template <typename T>
@@ -221,8 +226,8 @@ std::int64_t geometry_bytes(const Geometry& geometry) {
                bytes_of(s.color);
     }
     for (const Mesh& m : geometry.meshes) {
-        sum += bytes_of(m.positions) + bytes_of(m.normals) + bytes_of(m.tangents) +
-               bytes_of(m.uvs) + bytes_of(m.triangles);
+        sum += bytes_of(m.positions) + bytes_of(m.normals) + bytes_of(m.tangents) + bytes_of(m.uvs) +
+               bytes_of(m.triangles);
     }
     for (const Texture& t : geometry.textures) sum += bytes_of(t.texels);
     return sum;
@@ -232,9 +237,9 @@ std::int64_t geometry_bytes(const Geometry& geometry) {
 void plan_memory(VoxelizePlan& plan, const VoxelizeContext& context, const Bins& bins) {
     std::int64_t limit = context.options.memory_bytes;
     if (limit == 0) limit = std::max<std::int64_t>(available_bytes() / 2, std::int64_t{1} << 30);
-    const std::int64_t fixed = kProgramBytes + geometry_bytes(context.geometry) +
-                               context.fibers.byte_count() +
-                               SurfaceSource::predict_bytes(context.geometry);
+    const std::int64_t fixed =
+        kProgramBytes + geometry_bytes(context.geometry) + context.fibers.byte_count() +
+        SurfaceSource::predict_bytes(context.geometry);
     const std::int64_t counts = bins.byte_count();
     const std::int64_t workers = thread_count() * BlockWorker::byte_count(context.fit);
     const VoxelGridFields& fields = context.fit.fields;
@@ -257,11 +262,10 @@ void plan_memory(VoxelizePlan& plan, const VoxelizeContext& context, const Bins&
     plan.batches = entries == 0 ? 1 : (entries + lists - 1) / lists;
     plan.peak_bytes = peak(kept, std::min(entries, lists));
     if (plan.peak_bytes > limit && context.options.memory_bytes != 0) {
-        throw Error(
-            ErrorCode::OutOfMemory,
-            str("voxelize: ", limit / 1048576, " MiB of memory is not enough for about ",
-                plan.voxels, " voxels"),
-            str("give at least ", plan.peak_bytes / 1048576 + 1, "M, or use larger voxels"));
+        throw Error(ErrorCode::OutOfMemory,
+                    str("voxelize: ", limit / 1048576, " MiB of memory is not enough for about ",
+                        plan.voxels, " voxels"),
+                    str("give at least ", plan.peak_bytes / 1048576 + 1, "M, or use larger voxels"));
     }
 }
 
@@ -295,10 +299,13 @@ VoxelizePlan plan_voxelize(const Geometry& geometry, const VoxelizeOptions& opti
     plan.steps = context.fibers.steps();
     plan.step_length = context.units.unit;
     plan.chord_error = kChordSagitta * 2.0 / 3.0;
-    measure_sample(plan, context, bins);
+    const BlockCounts work = measure_sample(plan, context, bins);
     plan.seconds = (kSecondsPerStep * plan.steps +
                     kSecondsPerSubvoxel * static_cast<double>(plan.touched_subvoxels) +
-                    kSecondsPerVoxel * static_cast<double>(plan.voxels)) /
+                    kSecondsPerVoxel * static_cast<double>(plan.voxels) +
+                    kSecondsPerTriangle * static_cast<double>(work.triangles) +
+                    kSecondsPerHit * static_cast<double>(work.triangle_hits) +
+                    kSecondsPerSample * static_cast<double>(work.surface_samples)) /
                    thread_count();
     plan_memory(plan, context, bins);
     return plan;
