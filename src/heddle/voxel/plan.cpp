@@ -177,8 +177,9 @@ BlockCounts measure_sample(VoxelizePlan& plan, const VoxelizeContext& context, c
     const std::size_t blocks = bins.blocks().size();
     if (blocks == 0) return {};
     const bool surfaces = context.triangles.count() > context.fibers.span_count();
-    const std::size_t most = surfaces ? 256 : 48; // a block of fibers takes many times longer
-    const std::size_t wanted = std::clamp<std::size_t>(blocks / 32, 4, most);
+    // a block of surfaces takes little time, and differs more from the next
+    const std::size_t wanted = surfaces ? std::clamp<std::size_t>(blocks / 32, 16, 256)
+                                        : std::clamp<std::size_t>(blocks / 32, 4, 48);
     const std::size_t stride = std::max<std::size_t>(1, blocks / wanted);
     std::vector<std::uint32_t> chosen;
     double entries = 0.0;
