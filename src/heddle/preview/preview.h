@@ -11,7 +11,8 @@ namespace heddle {
 
 enum class PreviewColor : std::uint8_t {
     Albedo,   ///< material colour, shaded by a light at the eye: Kajiya-Kay or Lambert
-    Tangent,  ///< |x|, |y|, |z| of the heaviest lobe's direction as red, green, blue
+    Tangent,  ///< x^2, y^2, z^2 of the heaviest lobe's direction as red, green, blue; the brushing
+              ///< of an anisotropic surface
     Width,    ///< of the heaviest lobe: needles blue, round ones red
     Material, ///< one colour a material id
     Block     ///< one colour a cell of 32^3 voxels
@@ -43,7 +44,8 @@ struct PreviewImage {
 /// Each ray steps through occupied leaves and their voxels, front to back. A voxel that the ray
 /// crosses over the length s lets exp(-k s) through, k^2 = sum (d_a k_a)^2 with k_a = -ln(1 - c_a)
 /// / h_a: exact along the axes, for what looks the same from all sides, and for surfaces across an
-/// axis. Memory: 12 bytes a voxel and 170 bytes a leaf.
+/// axis. Neighbours on the ray that belong to one flat surface add up what they hide; all others
+/// multiply what they let through. Memory: 12 bytes a voxel and 170 bytes a leaf.
 /// @throws Error  InvalidArgument: a size, direction or angle out of range; Cancelled
 [[nodiscard]] PreviewImage
 render_preview(const VoxelSource& source, const PreviewOptions& options, Progress& progress);

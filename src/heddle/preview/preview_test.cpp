@@ -79,6 +79,20 @@ TEST(Preview, LayersMultiplyWhatTheyLetThrough) {
     EXPECT_NEAR(pixel(image, 16, 16)[3], (1.0 - 0.125) * 255.0, 4.0);
 }
 
+TEST(Preview, NeighboursOfOneSheetAddUpWhatTheyHide) {
+    Progress progress;
+    VoxelGrid sheet = make_voxels(box(16, 16, 2), 0.5, {0.0f, 0.0f, 1.0f});
+    sheet.about.materials[0].kind = MaterialKind::Surface; // the needle is of normals: flat
+    EXPECT_GT(pixel(render_preview(sheet, small({0, 0, 1}), progress), 16, 16)[3], 250);
+    // two sheets with air between them multiply, as all else does
+    std::vector<Vec3i> apart = box(16, 16, 1);
+    for (const Vec3i i : box(16, 16, 1)) apart.push_back({i.x, i.y, 3});
+    VoxelGrid two = make_voxels(apart, 0.5, {0.0f, 0.0f, 1.0f});
+    two.about.materials[0].kind = MaterialKind::Surface;
+    EXPECT_NEAR(pixel(render_preview(two, small({0, 0, 1}), progress), 16, 16)[3], 0.75 * 255.0,
+                4.0);
+}
+
 TEST(Preview, AMediumThatIsTheSameFromAllSidesIsSoAtAnAngle) {
     // a slab of 16 layers, c = 0.1: along z the depth is 16 k, at 60 degrees 32 k
     Progress progress;

@@ -35,16 +35,19 @@ float lobe_width(const SggxMatrix& S, Vec3f axis) {
 
 class Packer {
 public:
-    explicit Packer(const VoxelGridInfo& info) : info_(info), depths_(make_depths()) {}
+    Packer(const VoxelGridInfo& info, bool tangents)
+        : info_(info), tangents_(tangents && info.fields.tangents), depths_(make_depths()) {}
 
     [[nodiscard]] Voxel pack(const VoxelBlock& block, std::size_t v, std::size_t l) const {
         const Lobe& lobe = block.lobes[l];
         const SggxMatrix S = unpack(lobe.sggx);
-        const Vec3f axis = principal_direction(S);
+        Vec3f axis = principal_direction(S);
         const Coverage& c = block.coverage[v];
         Voxel out{};
         out.depth = {depths_[c.x], depths_[c.y], depths_[c.z]};
         out.width = to_byte(lobe_width(S, axis));
+        const bool brushed = tangents_ && block.tangents[l].sigma[0] != 0; // all zero: isotropic
+        if (brushed) axis = principal_direction(unpack(block.tangents[l]));
         for (int a = 0; a < 3; ++a) {
             out.axis[static_cast<std::size_t>(a)] =
                 static_cast<std::int8_t>(std::lround(axis[a] * 127.0f));
@@ -83,6 +86,7 @@ private:
     }
 
     const VoxelGridInfo& info_;
+    bool tangents_;
     std::vector<std::uint8_t> depths_;
 };
 
@@ -102,9 +106,9 @@ std::vector<Voxel> pack_block(const Packer& packer, const VoxelBlock& block) {
 
 } // namespace
 
-Scene::Scene(const VoxelSource& source, Progress& progress)
+Scene::Scene(const VoxelSource& source, bool tangents, Progress& progress)
     : voxel_size_(source.info().lattice.voxel_size), voxels_(source.block_count()) {
-    const Packer packer(source.info());
+    const Packer packer(source.info(), tangents);
     std::vector<std::vector<VoxelLeaf>> blocks(source.block_count());
     progress.begin("gather", "blocks", static_cast<std::int64_t>(blocks.size()));
     parallel_chunks(blocks.size(), 1, [&](std::size_t i, std::size_t) {

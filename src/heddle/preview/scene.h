@@ -34,8 +34,9 @@ struct Leaf {
 /// Leaves found by index: two levels, cells of 16^3 leaves that are there or not.
 class Scene {
 public:
-    /// @throws Error  Cancelled
-    Scene(const VoxelSource& source, Progress& progress);
+    /// @param tangents  anisotropic surfaces give the direction of their brushing, not the normal
+    /// @throws Error    Cancelled
+    Scene(const VoxelSource& source, bool tangents, Progress& progress);
 
     [[nodiscard]] bool empty() const { return leaves_.empty(); }
     [[nodiscard]] Vec3i lo() const { return lo_; } ///< first leaf, in leaves

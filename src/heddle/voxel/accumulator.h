@@ -89,6 +89,11 @@ public:
             table_[static_cast<std::size_t>((x * kBlockVoxels + y) * kBlockVoxels + z)];
         return slot == kNone ? nullptr : &voxels_[slot];
     }
+    /// The row of voxels (x, y, 0 .. kBlockVoxels - 1) relative to lo: kNone, or what `at_slot` takes.
+    [[nodiscard]] const std::uint16_t* slots(int x, int y) const {
+        return &table_[static_cast<std::size_t>((x * kBlockVoxels + y) * kBlockVoxels)];
+    }
+    [[nodiscard]] const VoxelSums& at_slot(std::uint16_t slot) const { return voxels_[slot]; }
     [[nodiscard]] const LobeSums* next(const LobeSums& lobe) const {
         return lobe.next == 0 ? nullptr : &more_[lobe.next - 1];
     }

@@ -1,6 +1,8 @@
 #include <heddle/voxel/bin.h>
 
 #include <heddle/base/parallel.h>
+#include <heddle/voxel/surface_sample.h>
+#include <heddle/voxel/triangle_scan.h>
 
 #include <algorithm>
 #include <atomic>
@@ -70,11 +72,11 @@ TriangleSource::TriangleSource(const Geometry& geometry)
     for (const Mesh& mesh : geometry.meshes) {
         first_.push_back(first_.back() + mesh.triangles.size());
         const Material& m = geometry.materials[mesh.material];
-        const bool moves = m.height_map >= 0;
+        const auto map = static_cast<std::size_t>(m.height_map);
+        const bool moves = m.height_map >= 0 && map < geometry.textures.size() && !mesh.uvs.empty();
+        // heights are computed in float: a rounding more than the largest of them
         displacement_.push_back(
-            moves ? std::max(std::abs(static_cast<double>(m.height_offset)),
-                             std::abs(static_cast<double>(m.height_offset + m.height_scale)))
-                  : 0.0);
+            moves ? max_displacement(m, geometry.textures[map]) * (1.0 + 1e-6) : 0.0);
     }
 }
 
@@ -117,12 +119,15 @@ void Bins::visit_pairs(const Progress& progress, const Visit& visit) const {
             }
         }
     });
+    // the scan snaps vertices to a lattice of this pitch: a hit may lie that far outside
+    const double snap =
+        std::max({voxel.x, voxel.y, voxel.z}) / (fibers_.units().n * static_cast<double>(kScanOne));
     parallel_chunks(triangles_.count(), kGrain, [&](std::size_t begin, std::size_t end) {
         progress.check();
         for (std::size_t t = begin; t < end; ++t) {
             const TriangleSource::Place at = triangles_.place(t);
             const Mesh& mesh = triangles_.geometry().meshes[at.mesh];
-            const double move = triangles_.displacement(at.mesh);
+            const double move = triangles_.displacement(at.mesh) + 2.0 * snap;
             Vec3d p[3];
             Bounds box;
             for (std::size_t i = 0; i < 3; ++i) {

@@ -35,14 +35,15 @@ VoxelizeContext::VoxelizeContext(const Geometry& geometry_in,
                                  Vec3i voxel_hi)
     : geometry(geometry_in), options(options_in), units(lattice),
       fibers(geometry_in, units, options_in.seed), triangles(geometry_in),
-      range(voxel_lo, voxel_hi),
+      surfaces(geometry_in, units, options_in.seed), range(voxel_lo, voxel_hi),
       fit{.subvoxels = lattice.subvoxels,
           .max_lobes = options_in.max_lobes,
           .project_subvoxels = options_in.coverage == CoverageMode::Mask,
           .fields = fields_of(geometry_in)} {}
 
 BlockWorker::BlockWorker(const VoxelizeContext& context)
-    : context_(context), sums_(needs_maps(context.fit)), fibers_(context.fibers, context.options) {}
+    : context_(context), sums_(needs_maps(context.fit)), fibers_(context.fibers, context.options),
+      triangles_(context.triangles, context.surfaces, context.units, context.options.fit) {}
 
 BlockCounts BlockWorker::run(std::uint64_t block,
                              std::span<const Primitive> primitives,
@@ -56,7 +57,12 @@ BlockCounts BlockWorker::run(std::uint64_t block,
     const auto split = static_cast<std::size_t>(
         std::lower_bound(primitives.begin(), primitives.end(), kTriangleBit) - primitives.begin());
     fibers_.gather(primitives.first(split), sums_, progress);
-    return fit_block(sums_, context_.fit, out);
+    const TriangleWork work = triangles_.gather(primitives.subspan(split), sums_, progress);
+    BlockCounts counts = fit_block(sums_, context_.fit, out);
+    counts.triangles = static_cast<std::int64_t>(primitives.size() - split);
+    counts.triangle_hits = work.hits;
+    counts.surface_samples = work.samples;
+    return counts;
 }
 
 std::int64_t BlockWorker::byte_count(const FitOptions& fit) {

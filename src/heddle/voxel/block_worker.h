@@ -3,6 +3,7 @@
 #include <heddle/voxel/bin.h>
 #include <heddle/voxel/fit_block.h>
 #include <heddle/voxel/gather_fibers.h>
+#include <heddle/voxel/gather_triangles.h>
 
 #include <memory>
 #include <mutex>
@@ -18,6 +19,7 @@ struct VoxelizeContext {
     LatticeUnits units;
     FiberSource fibers;
     TriangleSource triangles;
+    SurfaceSource surfaces;
     BlockRange range;
     FitOptions fit;
 
@@ -46,6 +48,7 @@ private:
     const VoxelizeContext& context_;
     BlockSums sums_;
     FiberGatherer fibers_;
+    TriangleGatherer triangles_;
 };
 
 /// Lends workers to whichever thread asks: as many exist as threads ever worked at once.

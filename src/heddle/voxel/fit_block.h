@@ -18,7 +18,10 @@ struct BlockCounts {
     std::int64_t voxels = 0;
     std::int64_t lobes = 0;
     std::int64_t leaves = 0;
-    std::int64_t subvoxels = 0; ///< hit
+    std::int64_t subvoxels = 0;       ///< hit
+    std::int64_t triangles = 0;       ///< that were binned to the block
+    std::int64_t triangle_hits = 0;   ///< centre lines of columns that they meet
+    std::int64_t surface_samples = 0; ///< that maps and normals were read for
 };
 
 /// Fits every voxel of the block and appends it to `out`, leaf by leaf.

@@ -2,6 +2,7 @@
 #include <heddle/base/parallel.h>
 #include <heddle/base/random.h>
 #include <heddle/voxel/block_worker.h>
+#include <heddle/voxel/triangle_scan.h>
 #include <heddle/voxel/voxelize.h>
 
 #include <algorithm>
@@ -20,6 +21,12 @@ constexpr std::int64_t kDefaultVoxels = 512;
 constexpr double kSecondsPerStep = 1.0e-8;
 constexpr double kSecondsPerSubvoxel = 2.0e-9;
 constexpr double kSecondsPerVoxel = 4.0e-7;
+
+/// Of surfaces: a triangle in a block that it was binned to, a column's centre line that it meets,
+/// a read of its maps. Measured on seven meshes (bench/results/ogre_2048.md).
+constexpr double kSecondsPerTriangle = 1.2e-6;
+constexpr double kSecondsPerHit = 1.6e-8;
+constexpr double kSecondsPerSample = 3.5e-7;
 
 /// What the program and its libraries take before any data: measured on `heddle info`.
 constexpr std::int64_t kProgramBytes = 48 << 20;
@@ -132,6 +139,25 @@ void check_geometry(const Geometry& geometry) {
     }
 }
 
+/// The box of all hits: the scan snaps vertices to its lattice, and a surface on a voxel's face
+/// belongs above it. @throws Error when the scan's numbers would not hold the coordinates
+Bounds snap_bounds(const Bounds& whole, const Lattice& lattice, const std::string& name) {
+    Bounds box;
+    for (int a = 0; a < 3; ++a) {
+        const double step =
+            lattice.voxel_size[a] / lattice.subvoxels / static_cast<double>(kScanOne);
+        const double far = std::max(std::abs(whole.lo[a]), std::abs(whole.hi[a]));
+        if (far / step >= kMaxAxis * static_cast<double>(kScanOne)) {
+            bad(str("'", name, "' lies ", far / step / static_cast<double>(kScanOne),
+                    " subvoxels from the origin (limit 2^30 for meshes)"),
+                "use larger voxels, or move it closer to the origin");
+        }
+        box.lo[a] = step * std::floor(whole.lo[a] / step + 0.5);
+        box.hi[a] = step * (std::floor(whole.hi[a] / step + 0.5) + 0.5);
+    }
+    return box;
+}
+
 /// Voxels that the region touches. @throws Error when there are too many
 void choose_range(VoxelizePlan& plan, const std::string& name) {
     double total = 1.0;
@@ -158,11 +184,16 @@ void choose_range(VoxelizePlan& plan, const std::string& name) {
         std::isfinite(factor) ? str("use at least ", h.x * factor * 1.01) : "use larger ones");
 }
 
-/// Runs a hashed sample of the blocks and scales what came out by the primitives they hold.
-void measure_sample(VoxelizePlan& plan, const VoxelizeContext& context, const Bins& bins) {
+/// Runs a hashed sample of the blocks and scales what came out: of fibers by the pieces that the
+/// blocks hold, of surfaces by the blocks (a fine mesh has many triangles and no more voxels).
+/// @return  sums over all blocks
+BlockCounts measure_sample(VoxelizePlan& plan, const VoxelizeContext& context, const Bins& bins) {
     const std::size_t blocks = bins.blocks().size();
-    if (blocks == 0) return;
-    const std::size_t wanted = std::clamp<std::size_t>(blocks / 32, 4, 48);
+    if (blocks == 0) return {};
+    const bool surfaces = context.triangles.count() > context.fibers.span_count();
+    // a block of surfaces takes little time, and differs more from the next
+    const std::size_t wanted = surfaces ? std::clamp<std::size_t>(blocks / 32, 16, 256)
+                                        : std::clamp<std::size_t>(blocks / 32, 4, 48);
     const std::size_t stride = std::max<std::size_t>(1, blocks / wanted);
     std::vector<std::uint32_t> chosen;
     double entries = 0.0;
@@ -181,7 +212,9 @@ void measure_sample(VoxelizePlan& plan, const VoxelizeContext& context, const Bi
             counts[s] = worker.run(chosen[s], lists.of(s), silent, out);
         });
     });
-    const double scale = static_cast<double>(bins.total_entries()) / entries;
+    const double scale = surfaces
+                             ? static_cast<double>(blocks) / static_cast<double>(chosen.size())
+                             : static_cast<double>(bins.total_entries()) / entries;
     const auto scaled = [&](std::int64_t BlockCounts::*field) {
         std::int64_t sum = 0;
         for (const BlockCounts& c : counts) sum += c.*field;
@@ -191,6 +224,9 @@ void measure_sample(VoxelizePlan& plan, const VoxelizeContext& context, const Bi
     plan.lobes = scaled(&BlockCounts::lobes);
     plan.leaves = scaled(&BlockCounts::leaves);
     plan.touched_subvoxels = scaled(&BlockCounts::subvoxels);
+    return {.triangles = scaled(&BlockCounts::triangles),
+            .triangle_hits = scaled(&BlockCounts::triangle_hits),
+            .surface_samples = scaled(&BlockCounts::surface_samples)};
 }
 
 template <typename T>
@@ -217,7 +253,8 @@ void plan_memory(VoxelizePlan& plan, const VoxelizeContext& context, const Bins&
     std::int64_t limit = context.options.memory_bytes;
     if (limit == 0) limit = std::max<std::int64_t>(available_bytes() / 2, std::int64_t{1} << 30);
     const std::int64_t fixed =
-        kProgramBytes + geometry_bytes(context.geometry) + context.fibers.byte_count();
+        kProgramBytes + geometry_bytes(context.geometry) + context.fibers.byte_count() +
+        SurfaceSource::predict_bytes(context.geometry);
     const std::int64_t counts = bins.byte_count();
     const std::int64_t workers = thread_count() * BlockWorker::byte_count(context.fit);
     const VoxelGridFields& fields = plan.fields;
@@ -258,10 +295,11 @@ VoxelizePlan plan_voxelize(const Geometry& geometry, const VoxelizeOptions& opti
     VoxelizePlan plan;
     plan.lattice = choose_lattice(options, whole);
     plan.bounds = whole;
+    if (!geometry.meshes.empty()) plan.bounds.grow(snap_bounds(whole, plan.lattice, geometry.name));
     if (options.bounds) {
         for (int a = 0; a < 3; ++a) {
-            plan.bounds.lo[a] = std::max(whole.lo[a], options.bounds->lo[a]);
-            plan.bounds.hi[a] = std::min(whole.hi[a], options.bounds->hi[a]);
+            plan.bounds.lo[a] = std::max(plan.bounds.lo[a], options.bounds->lo[a]);
+            plan.bounds.hi[a] = std::min(plan.bounds.hi[a], options.bounds->hi[a]);
         }
         if (plan.bounds.empty()) {
             bad("the bounds do not meet the object", "heddle info shows where it lies");
@@ -279,10 +317,13 @@ VoxelizePlan plan_voxelize(const Geometry& geometry, const VoxelizeOptions& opti
     plan.steps = context.fibers.steps();
     plan.step_length = context.units.unit;
     plan.chord_error = kChordSagitta * 2.0 / 3.0;
-    measure_sample(plan, context, bins);
+    const BlockCounts work = measure_sample(plan, context, bins);
     plan.seconds = (kSecondsPerStep * plan.steps +
                     kSecondsPerSubvoxel * static_cast<double>(plan.touched_subvoxels) +
-                    kSecondsPerVoxel * static_cast<double>(plan.voxels)) /
+                    kSecondsPerVoxel * static_cast<double>(plan.voxels) +
+                    kSecondsPerTriangle * static_cast<double>(work.triangles) +
+                    kSecondsPerHit * static_cast<double>(work.triangle_hits) +
+                    kSecondsPerSample * static_cast<double>(work.surface_samples)) /
                    thread_count();
     plan_memory(plan, context, bins);
     return plan;

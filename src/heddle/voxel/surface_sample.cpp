@@ -51,8 +51,11 @@ TexelWeight albedo_weight(const Material& m) {
 
 } // namespace
 
-SurfaceSampler::SurfaceSampler(const Geometry& geometry, Vec3d subvoxel_size, std::uint64_t seed)
-    : geometry_(&geometry), subvoxel_size_(subvoxel_size), seed_(seed) {
+SurfaceSampler::SurfaceSampler(const Geometry& geometry,
+                               Vec3d subvoxel_size,
+                               std::uint64_t seed,
+                               std::int32_t run)
+    : geometry_(&geometry), subvoxel_size_(subvoxel_size), seed_(seed), run_(run) {
     for (const Mesh& mesh : geometry.meshes)
         if (mesh.material >= geometry.materials.size())
             throw Error(
@@ -114,6 +117,14 @@ SurfaceMaps SurfaceSampler::make_maps(const Material& m) {
     return maps;
 }
 
+bool SurfaceSampler::is_constant(const Mesh& mesh) const {
+    const SurfaceMaps& m = maps_[mesh.material];
+    const bool mapped = m.albedo != nullptr || m.normal != nullptr || m.metal_rough != nullptr ||
+                        m.height != nullptr;
+    return mesh.normals.empty() && !m.anisotropic && (!mapped || mesh.uvs.empty()) &&
+           m.material->alpha_mode == AlphaMode::Opaque;
+}
+
 bool SurfaceSampler::is_displaced(const Mesh& mesh) const {
     return maps_[mesh.material].height != nullptr && !mesh.uvs.empty();
 }
@@ -138,14 +149,14 @@ TriangleSetup SurfaceSampler::setup(const Mesh& mesh, std::size_t triangle) cons
         t.smooth = true;
     }
     t.displaced = is_displaced(mesh);
+    if (!t.displaced && t.maps->material->alpha_mode == AlphaMode::Opaque) t.run = run_;
     if (!mesh.uvs.empty()) {
         t.uv = {mesh.uvs[a], mesh.uvs[b], mesh.uvs[c]};
         set_texture(t, 0.5 * length(twice));
     }
     const bool framed = t.maps->anisotropic || (t.textured && t.maps->normal != nullptr);
     if (framed) set_tangents(t, mesh, triangle);
-    t.constant = !t.smooth && !t.textured && !framed && !t.displaced &&
-                 t.maps->material->alpha_mode == AlphaMode::Opaque;
+    t.constant = is_constant(mesh);
     return t;
 }
 
@@ -155,7 +166,8 @@ void SurfaceSampler::set_texture(TriangleSetup& t, double area) const {
                  m.anisotropy != nullptr;
     if (!t.textured || !(area > 0.0)) return;
     const double ratio = uv_area(t.uv[0], t.uv[1], t.uv[2]) / area;
-    t.footprint_uv = static_cast<float>(std::sqrt(ratio * hit_area(t.normal, subvoxel_size_)));
+    t.footprint_uv =
+        static_cast<float>(std::sqrt(ratio * hit_area(t.normal, subvoxel_size_) * t.run));
     const auto level = [&](const FilteredTexture* map) {
         return map != nullptr ? map->level_of(t.footprint_uv) : 0.0f;
     };

@@ -51,11 +51,13 @@ struct TriangleSetup {
     bool smooth = false;   ///< vertex normals vary
     bool textured = false; ///< `uv` holds
     bool displaced = false;
+    std::int32_t run =
+        1; ///< neighbouring hits of a row that one sample, at their middle, stands for
     std::array<Vec3f, 3> normals{};
     std::array<Vec3f, 3> tangents{};
     float handedness = 1.0f; ///< bitangent = handedness x cross(normal, tangent)
     std::array<Uv, 3> uv{};
-    float footprint_uv = 0.0f; ///< square root of the uv area that a hit stands for
+    float footprint_uv = 0.0f; ///< square root of the uv area that a sample stands for
     float albedo_level = 0.0f;
     float metal_rough_level = 0.0f;
     float anisotropy_level = 0.0f;
@@ -88,9 +90,14 @@ class SurfaceSampler {
 public:
     /// @param geometry       must outlive the sampler, unchanged
     /// @param subvoxel_size  scene units per axis, > 0
+    /// @param run            >= 1: so many neighbouring hits may share a sample, whose footprint is
+    ///                       theirs together; on materials that alpha cuts each has its own
     /// @throws Error         InvalidArgument: a texture with less bytes than its size says, or an
     ///                       index (material, texture) that is out of range
-    SurfaceSampler(const Geometry& geometry, Vec3d subvoxel_size, std::uint64_t seed);
+    SurfaceSampler(const Geometry& geometry,
+                   Vec3d subvoxel_size,
+                   std::uint64_t seed,
+                   std::int32_t run = 1);
 
     /// @param triangle  index into `mesh.triangles`
     [[nodiscard]] TriangleSetup setup(const Mesh& mesh, std::size_t triangle) const;
@@ -100,6 +107,8 @@ public:
     [[nodiscard]] SurfaceSample
     sample(const TriangleSetup& setup, const SurfaceHit& hit, Vec3f micro_normal) const;
 
+    /// True if every hit of the mesh gives {true, face normal}: TriangleSetup::constant.
+    [[nodiscard]] bool is_constant(const Mesh& mesh) const;
     /// True if the mesh's material has a height map that moves its surface.
     [[nodiscard]] bool is_displaced(const Mesh& mesh) const;
     /// @param mesh  an element of the geometry's meshes, with is_displaced(mesh)
@@ -140,6 +149,7 @@ private:
     const Geometry* geometry_;
     Vec3d subvoxel_size_;
     std::uint64_t seed_;
+    std::int32_t run_;
     std::vector<Stored> stored_;
     std::vector<SurfaceMaps> maps_;    ///< per material
     std::vector<float> height_levels_; ///< per mesh

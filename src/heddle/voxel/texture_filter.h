@@ -64,9 +64,7 @@ private:
         std::int32_t height = 0;
         std::vector<Texel> texels; ///< empty at level 0
     };
-    struct Sum {
-        float r = 0.0f, g = 0.0f, b = 0.0f, a = 0.0f;
-    };
+    using Float4 [[gnu::vector_size(16)]] = float; ///< four channels
     struct Corner {
         std::int32_t x0, x1, y0, y1;
         float fx, fy;
@@ -80,7 +78,9 @@ private:
     [[nodiscard]] Texel source_texel(const Level& from, std::int32_t x, std::int32_t y) const;
     [[nodiscard]] Texel
     box_average(const Level& from, const Level& to, std::int32_t x, std::int32_t y) const;
-    [[nodiscard]] Sum sum_at(Uv uv, std::size_t level) const;
+    template <bool Opaque>
+    [[nodiscard]] Float4 raw_at(Uv uv) const;
+    [[nodiscard]] Float4 sum_at(Uv uv, std::size_t level) const;
 
     const Texture* texture_;
     const std::uint8_t* texels_ = nullptr;
