@@ -5,6 +5,7 @@
 #include <heddle/voxel/fiber_tile.h>
 #include <heddle/voxel/flyaway.h>
 #include <heddle/voxel/gather_kernels.h>
+#include <heddle/voxel/gather_samples.h>
 
 #include <algorithm>
 #include <array>
@@ -29,6 +30,7 @@ PlySection section_of(const YarnType& yarn) {
 struct PieceTarget {
     GatherTarget block;
     Vec3i anchor; ///< of the piece, relative to the block's lo
+    std::uint32_t part = 0, parts = 1; ///< the piece, of its span
 };
 
 HEDDLE_CLONES void gather_thick(const Chord& chord, Vec3i anchor, const GatherTarget& t) {
@@ -99,6 +101,7 @@ struct YarnFrame {
 struct FiberGatherer::State {
     const FiberSource& source;
     const VoxelizeOptions& options;
+    bool mask; ///< CoverageMode::Mask
     FiberTable table; ///< of the yarn below
     std::uint32_t table_set = ~0u;
     std::uint64_t table_curve = ~std::uint64_t{0};
@@ -109,8 +112,10 @@ struct FiberGatherer::State {
 
     [[nodiscard]] GatherTarget target_of(std::uint32_t set, BlockSums& block) const;
     void gather_run(const PieceTarget& target);
-    void gather_chords(std::size_t first, const PieceTarget& target);
-    void gather_thick_fibers(std::size_t first, int j, float radius, const PieceTarget& target);
+    void gather_one(const Chord& chord, const PieceTarget& target, double begin, double width) const;
+    void gather_chords(std::size_t first, const PieceTarget& target, double t0, double t1);
+    void gather_one_by_one(std::size_t first, int j, float radius, const PieceTarget& target,
+                           double begin, double width);
     void gather_piece(const FiberPiece& piece, BlockSums& block);
     void gather_plain(const FiberPiece& piece, const LocalCubic& cubic, PieceTarget& target);
     void gather_yarn(const FiberPiece& piece, const LocalCubic& cubic, PieceTarget& target);
@@ -128,24 +133,43 @@ GatherTarget FiberGatherer::State::target_of(std::uint32_t set, BlockSums& block
 }
 
 void FiberGatherer::State::gather_run(const PieceTarget& target) {
-    for (const Chord& chord : chords) {
-        if (chord.radius > kThickRadius) {
-            gather_thick(chord, target.anchor, target.block);
+    for (std::size_t j = 0; j < chords.size(); ++j) {
+        if (mask || chords[j].radius > kThickRadius) {
+            const auto count = static_cast<double>(chords.size());
+            gather_one(chords[j], target, static_cast<double>(j) / count, 1.0 / count);
         } else {
-            queue.add(chord, target.anchor, target.block.paint.color);
+            queue.add(chords[j], target.anchor, target.block.paint.color);
             if (queue.full()) queue.flush(target.block);
         }
     }
 }
 
-void FiberGatherer::State::gather_chords(std::size_t first, const PieceTarget& target) {
+void FiberGatherer::State::gather_one(const Chord& chord,
+                                      const PieceTarget& target,
+                                      double begin,
+                                      double width) const {
+    if (!mask) {
+        gather_thick(chord, target.anchor, target.block);
+        return;
+    }
+    const auto parts = static_cast<double>(target.parts);
+    const double from = (static_cast<double>(target.part) + begin) / parts;
+    gather_samples(chord, target.anchor, target.block,
+                   {options.samples, from, from + width / parts});
+}
+
+void FiberGatherer::State::gather_chords(std::size_t first,
+                                         const PieceTarget& target,
+                                         double t0,
+                                         double t1) {
     std::array<std::array<std::int32_t, FiberTile::kRow>, 3> anchor;
     std::array<float, FiberTile::kRow> radius;
     for (int a = 0; a < 3; ++a) anchor[static_cast<std::size_t>(a)].fill(target.anchor[a]);
     for (int j = 0; j < tile.chords; ++j) {
         const float mean = 0.5f * (tile.radius[j + 1] + tile.radius[j + 2]);
-        if (mean > kThickRadius) {
-            gather_thick_fibers(first, j, mean, target);
+        if (mask || mean > kThickRadius) {
+            gather_one_by_one(first, j, mean, target, t0 + (t1 - t0) * (j + 1) / (tile.chords + 2),
+                              (t1 - t0) / (tile.chords + 2));
             continue;
         }
         radius.fill(mean);
@@ -159,24 +183,27 @@ void FiberGatherer::State::gather_chords(std::size_t first, const PieceTarget& t
     }
 }
 
-void FiberGatherer::State::gather_thick_fibers(std::size_t first,
-                                               int j,
-                                               float radius,
-                                               const PieceTarget& target) {
-    GatherTarget block = target.block;
+void FiberGatherer::State::gather_one_by_one(std::size_t first,
+                                             int j,
+                                             float radius,
+                                             const PieceTarget& target,
+                                             double begin,
+                                             double width) {
+    PieceTarget own = target;
     for (int f = 0; f < tile.fibers; ++f) {
         if (!(tile.length[j][f] > 0.0f)) continue;
-        block.paint.color = table.color[first + static_cast<std::size_t>(f)];
-        gather_thick({{tile.x[j + 1][f], tile.y[j + 1][f], tile.z[j + 1][f]},
-                      {tile.dx[j][f], tile.dy[j][f], tile.dz[j][f]},
-                      tile.length[j][f], tile.before[j][f], tile.after[j][f], radius},
-                     target.anchor, block);
+        own.block.paint.color = table.color[first + static_cast<std::size_t>(f)];
+        gather_one({{tile.x[j + 1][f], tile.y[j + 1][f], tile.z[j + 1][f]},
+                    {tile.dx[j][f], tile.dy[j][f], tile.dz[j][f]},
+                    tile.length[j][f], tile.before[j][f], tile.after[j][f], radius},
+                   own, begin, width);
     }
 }
 
 void FiberGatherer::State::gather_piece(const FiberPiece& piece, BlockSums& block) {
     const LocalCubic cubic(piece.cubic, source.units());
-    PieceTarget target{target_of(piece.set, block), cubic.anchor - block.lo()};
+    PieceTarget target{target_of(piece.set, block), cubic.anchor - block.lo(), piece.part,
+                       piece.parts};
     const YarnType* yarn = source.yarn_of(piece.set);
     if (yarn == nullptr || yarn->model == YarnModel::Solid) {
         gather_plain(piece, cubic, target);
@@ -309,7 +336,7 @@ void FiberGatherer::State::gather_tiles(const YarnType& yarn,
                       course.start + course.length * t1);
         }
         expand_fibers(tile, std::span(parts.data(), count), section, table);
-        gather_chords(first, target);
+        gather_chords(first, target, t0, t1);
         first = end;
     }
 }
@@ -374,7 +401,8 @@ void FiberGatherer::State::gather_hairs(const YarnType& yarn,
 }
 
 FiberGatherer::FiberGatherer(const FiberSource& source, const VoxelizeOptions& options)
-    : state_(new State{.source = source, .options = options, .table = {}, .tile = {}, .frames = {}, .chords = {}, .queue = {}}) {}
+    : state_(new State{.source = source, .options = options,
+                       .mask = options.coverage == CoverageMode::Mask, .table = {}, .tile = {}, .frames = {}, .chords = {}, .queue = {}}) {}
 
 FiberGatherer::~FiberGatherer() = default;
 
