@@ -33,31 +33,10 @@ public:
         return hash64(seed + 0x6c6f6f70u, curve, fiber);
     }
 
-    /// False where `factor` is 1 at every phase between the two.
+    /// How far out the loop of a period goes, times the fiber's own distance; 1: no loop.
     /// @param id      of the fiber
-    /// @param phase0  migration phase, turns
-    [[nodiscard]] bool any(std::uint64_t id, double phase0, double phase1, float radius) const {
-        const double first = std::floor(std::min(phase0, phase1) + 0.5);
-        const double last = std::floor(std::max(phase0, phase1) + 0.5);
-        for (double period = first; period <= last; period += 1.0) {
-            if (ratio(id, period, radius) > 1.0) return true;
-        }
-        return false;
-    }
-
-    /// What multiplies a fiber's distance from its ply's axis: 1, or in a loop's period
-    /// 1 + (r1 / r - 1) cos(pi w), w the distance from the outermost point in periods.
-    /// @param phase   migration phase, turns; whole numbers are outermost points
+    /// @param period  number of the migration's period, from half a turn before its outermost point
     /// @param radius  the fiber's, of the unit section
-    [[nodiscard]] float factor(std::uint64_t id, double phase, float radius) const {
-        const double period = std::floor(phase + 0.5);
-        const double w = phase - period;
-        const double bump = 1.0 - 4.0 * w * w; // cos(pi w) to 6 %, and 0 at the period's ends
-        return static_cast<float>(1.0 + (ratio(id, period, radius) - 1.0) * bump);
-    }
-
-private:
-    /// How far out a period's loop goes, times the fiber's own distance; 1: no loop.
     [[nodiscard]] double ratio(std::uint64_t id, double period, float radius) const {
         const std::uint64_t draw =
             hash64(id, static_cast<std::uint64_t>(static_cast<long long>(period)));
@@ -69,6 +48,21 @@ private:
         return ratio > 1.05 ? ratio : 1.0; // no loop where the fiber already runs as far out
     }
 
+    /// What multiplies a fiber's distance from its ply's axis: 1, or in a loop's period
+    /// 1 + (r1 / r - 1) cos(pi w), w the distance from the outermost point in periods.
+    /// @param phase   migration phase, turns; whole numbers are outermost points
+    [[nodiscard]] float factor(std::uint64_t id, double phase, float radius) const {
+        const double period = period_of(phase);
+        const double w = phase - period;
+        const double bump = 1.0 - 4.0 * w * w; // cos(pi w) to 6 %, and 0 at the period's ends
+        return static_cast<float>(1.0 + (ratio(id, period, radius) - 1.0) * bump);
+    }
+    [[nodiscard]] static double period_of(double phase) {
+        const auto whole = static_cast<double>(static_cast<long long>(phase + 0.5));
+        return whole > phase + 0.5 ? whole - 1.0 : whole;
+    }
+
+private:
     const YarnType& yarn_;
     float section_;
     double chance_;
@@ -109,8 +103,14 @@ public:
             if (!closed_ && (cell < 0 || cell >= cells_)) continue;
             const std::int64_t turn = closed_ ? floor_div(cell, cells_) : 0;
             const auto own = static_cast<std::uint64_t>(cell - turn * cells_);
-            FlyawayHair hair = draw(hash64(seed + 0x68616972u, curve, ply), own);
+            CounterRandom random{.seed = hash64(seed + 0x68616972u, curve, ply), .id = own};
+            FlyawayHair hair = place(random, own);
             hair.z0 += static_cast<double>(turn) * total_;
+            // most hairs near a piece do not reach it: the rest of the draw is not needed
+            const double end = hair.z0 + hair.ze;
+            const double root = hair.z0 - kRoot * hair.ze;
+            if (std::max(end, root) <= s0 || std::min(end, root) >= s1) continue;
+            shape(random, hair);
             const double qa = (s0 - hair.z0) / hair.ze;
             const double qb = (s1 - hair.z0) / hair.ze;
             hair.t0 = std::max(hair.t0, std::min(qa, qb));
@@ -126,24 +126,25 @@ private:
         return a >= 0 ? a / b : -((-a + b - 1) / b);
     }
 
-    [[nodiscard]] FlyawayHair draw(std::uint64_t id, std::uint64_t cell) const {
-        CounterRandom random{.seed = id, .id = cell};
-        const auto normal = [&](MeanSd v) {
-            return static_cast<double>(v.mean) + static_cast<double>(v.sd) * deviate(random.next());
-        };
+    [[nodiscard]] double normal(CounterRandom& random, MeanSd v) const {
+        return static_cast<double>(v.mean) + static_cast<double>(v.sd) * deviate(random.next());
+    }
+    [[nodiscard]] FlyawayHair place(CounterRandom& random, std::uint64_t cell) const {
         FlyawayHair hair{};
         hair.z0 = (static_cast<double>(cell) + static_cast<double>(random.uniform())) * cell_;
-        hair.ze = normal(yarn_.hair_ze);
+        hair.ze = normal(random, yarn_.hair_ze);
         // a hair straight out still passes through some yarn length: it has one place on the yarn
         const double least = 1e-3 * static_cast<double>(yarn_.model_radius);
         if (std::abs(hair.ze) < least) hair.ze = hair.ze < 0.0 ? -least : least;
-        hair.r0 = std::max(0.0, normal(yarn_.hair_r0));
-        hair.re = std::max(0.1 * static_cast<double>(yarn_.hair_re.mean), normal(yarn_.hair_re));
+        return hair;
+    }
+    void shape(CounterRandom& random, FlyawayHair& hair) const {
+        hair.r0 = std::max(0.0, normal(random, yarn_.hair_r0));
+        hair.re = std::max(0.1 * static_cast<double>(yarn_.hair_re.mean), normal(random, yarn_.hair_re));
         hair.p0 = 6.283185307179586 * static_cast<double>(random.uniform());
-        hair.pe = normal(yarn_.hair_pe);
+        hair.pe = normal(random, yarn_.hair_pe);
         hair.t0 = hair.re > 0.0 ? -std::min(kRoot, hair.r0 / hair.re) : 0.0;
         hair.t1 = 1.0;
-        return hair;
     }
 
     const YarnType& yarn_;

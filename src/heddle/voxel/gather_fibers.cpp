@@ -98,6 +98,12 @@ struct YarnFrame {
 
 } // namespace
 
+/// The period of a fiber's migration that was last looked at, and whether it has a loop.
+struct LoopMemo {
+    double period = 1e300;
+    bool any = false;
+};
+
 struct FiberGatherer::State {
     const FiberSource& source;
     const VoxelizeOptions& options;
@@ -107,6 +113,7 @@ struct FiberGatherer::State {
     std::uint64_t table_curve = ~std::uint64_t{0};
     FiberTile tile;
     std::vector<PlyFrame> frames; ///< plies x kSamples
+    std::vector<LoopMemo> loops;  ///< per fiber of the table
     std::vector<Chord> chords;
     ChordQueue queue;
 
@@ -276,6 +283,7 @@ void FiberGatherer::State::gather_yarn(const FiberPiece& piece,
         table = place_fibers(yarn, source.seed() + piece.set, piece.curve);
         table_set = piece.set;
         table_curve = piece.curve;
+        loops.clear();
     }
     const YarnCourse course = source.course(piece);
     const PlySection section = section_of(yarn);
@@ -316,7 +324,7 @@ void FiberGatherer::State::gather_tiles(const YarnType& yarn,
                                         const YarnCourse& course,
                                         double t0,
                                         double t1) {
-    const bool loops = yarn.flyaways && yarn.loop_density > 0.0f;
+    const bool with_loops = yarn.flyaways && yarn.loop_density > 0.0f;
     std::array<PlyPart, 8> parts;
     std::size_t ply = 0;
     for (std::size_t first = 0; first < table.size();) {
@@ -331,7 +339,7 @@ void FiberGatherer::State::gather_tiles(const YarnType& yarn,
         }
         tile.fibers = static_cast<int>(end - first);
         tile.loops = false;
-        if (loops) {
+        if (with_loops) {
             set_loops(yarn, first, course.start + course.length * t0,
                       course.start + course.length * t1);
         }
@@ -347,11 +355,21 @@ void FiberGatherer::State::set_loops(const YarnType& yarn, std::size_t first, do
     const LoopModel model(yarn);
     const int samples = tile.chords + 3;
     const auto fibers = static_cast<std::size_t>(tile.fibers);
+    loops.resize(table.size());
     for (std::size_t f = 0; f < fibers; ++f) {
         const std::size_t i = first + f;
         const double turns = static_cast<double>(table.migration_turns[i]);
-        const std::uint64_t id = model.id(source.seed() + table_set, table_curve, i);
-        if (!model.any(id, s0 * frequency + turns, s1 * frequency + turns, table.radius[i])) continue;
+        const double p0 = LoopModel::period_of(s0 * frequency + turns);
+        const double p1 = LoopModel::period_of(s1 * frequency + turns);
+        LoopMemo& memo = loops[i];
+        if (memo.period == p0 && p0 == p1 && !memo.any) continue;
+        const std::uint64_t id = LoopModel::id(source.seed() + table_set, table_curve, i);
+        bool any = false;
+        for (double p = std::min(p0, p1); p <= std::max(p0, p1); p += 1.0) {
+            memo = {p, model.ratio(id, p, table.radius[i]) > 1.0};
+            any = any || memo.any;
+        }
+        if (!any) continue;
         if (!tile.loops) {
             for (int j = 0; j < samples; ++j) std::fill_n(tile.loop[j], fibers, 1.0f);
             tile.loops = true;
@@ -402,7 +420,7 @@ void FiberGatherer::State::gather_hairs(const YarnType& yarn,
 
 FiberGatherer::FiberGatherer(const FiberSource& source, const VoxelizeOptions& options)
     : state_(new State{.source = source, .options = options,
-                       .mask = options.coverage == CoverageMode::Mask, .table = {}, .tile = {}, .frames = {}, .chords = {}, .queue = {}}) {}
+                       .mask = options.coverage == CoverageMode::Mask, .table = {}, .tile = {}, .frames = {}, .loops = {}, .chords = {}, .queue = {}}) {}
 
 FiberGatherer::~FiberGatherer() = default;
 
