@@ -59,11 +59,10 @@ void print_bundles() {
         "## Bundles\n\n"
         "Bundles of 150 fibers, 12 random directions a row, coverage of every occupied voxel and\n"
         "axis against 64 x 64 rays through the exact cylinders. Straight: straight fibers about a\n"
-        "common axis, slope .15 at the surface, directions strewn by .03. Yarn: a procedural "
-        "yarn's\n"
-        "helices, expanded by the voxelizer. Bent: one solid yarn along a helix of radius 4.2,\n"
-        "pitch 5 yarn radii. Lengths in subvoxels. Asked: bias .005, mean absolute error .025.\n"
-        "Mask is `--coverage mask`.\n\n"
+        "common axis, slope .15 at the surface, directions strewn by .03. Yarn: helices of a\n"
+        "procedural yarn, expanded by the voxelizer. Bent: one solid yarn along a helix of radius\n"
+        "4.2, pitch 5 yarn radii. Lengths in subvoxels. Asked: bias .005, mean absolute error\n"
+        ".025. Mask is `--coverage mask`.\n\n"
         "| bundle | radius | fiber diameter | fill | faces | mean coverage | bias | mean abs error "
         "| mask: bias | mask: mean abs error |\n|---|---|---|---|---|---|---|---|---|---|\n");
     for (const double radius : {4.0, 10.0, 24.0}) {
