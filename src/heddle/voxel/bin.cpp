@@ -107,9 +107,9 @@ void Bins::visit_pairs(const Progress& progress, const Visit& visit) const {
     parallel_chunks(fibers_.span_count(), kGrain, [&](std::size_t begin, std::size_t end) {
         progress.check();
         for (std::size_t span = begin; span < end; ++span) {
-            const std::uint32_t parts = fibers_.part_count(span);
-            for (std::uint32_t part = 0; part < parts; ++part) {
-                const FiberPiece piece = fibers_.piece(span, part);
+            const FiberPiece whole = fibers_.whole_span(span);
+            for (std::uint32_t part = 0; part < whole.parts; ++part) {
+                const FiberPiece piece = FiberSource::part_of(whole, part);
                 Bounds box = piece.cubic.hull();
                 const double reach = fibers_.reach(piece);
                 box.lo = box.lo - Vec3d{reach, reach, reach};

@@ -175,22 +175,24 @@ FiberSource::SpanPlace FiberSource::place(std::uint64_t span) const {
     return {s, static_cast<std::uint64_t>(curve - spans.begin()), local - *curve};
 }
 
-std::uint32_t FiberSource::part_count(std::uint64_t span) const {
+FiberPiece FiberSource::whole_span(std::uint64_t span) const {
     const SpanPlace at = place(span);
     const Cubic cubic = span_cubic(geometry_.curves[at.set], at.curve, at.k);
     const double parts = std::ceil(cubic.polygon_length() / (kPieceLength * units_.unit));
-    return static_cast<std::uint32_t>(
-        std::clamp(parts, 1.0, static_cast<double>(kMaxParts)));
+    return {.set = at.set,
+            .parts = static_cast<std::uint32_t>(
+                std::clamp(parts, 1.0, static_cast<double>(kMaxParts))),
+            .curve = at.curve,
+            .span = at.k,
+            .cubic = cubic};
 }
 
-FiberPiece FiberSource::piece(std::uint64_t span, std::uint32_t part) const {
-    const SpanPlace at = place(span);
-    const Cubic whole = span_cubic(geometry_.curves[at.set], at.curve, at.k);
-    FiberPiece piece{.set = at.set, .part = part, .parts = part_count(span), .curve = at.curve,
-                     .span = at.k, .cubic = whole};
-    if (piece.parts > 1) {
-        const double dt = 1.0 / piece.parts;
-        piece.cubic = whole.part(part * dt, dt);
+FiberPiece FiberSource::part_of(const FiberPiece& span, std::uint32_t part) {
+    FiberPiece piece = span;
+    piece.part = part;
+    if (span.parts > 1) {
+        const double dt = 1.0 / span.parts;
+        piece.cubic = span.cubic.part(part * dt, dt);
     }
     return piece;
 }

@@ -61,10 +61,10 @@ public:
     FiberSource(const Geometry& geometry, const LatticeUnits& units, std::uint64_t seed);
 
     [[nodiscard]] std::uint64_t span_count() const { return first_span_.back(); }
-    /// Number of pieces that span `span` (over all sets) is cut into.
-    [[nodiscard]] std::uint32_t part_count(std::uint64_t span) const;
-    /// Piece `part` of span `span` (over all sets).
-    [[nodiscard]] FiberPiece piece(std::uint64_t span, std::uint32_t part) const;
+    /// Span `span` (over all sets) as one piece, with the number of parts that it is cut into.
+    [[nodiscard]] FiberPiece whole_span(std::uint64_t span) const;
+    /// Part `part` of a whole span.
+    [[nodiscard]] static FiberPiece part_of(const FiberPiece& span, std::uint32_t part);
     /// Distance from the piece's centreline within which it has matter; scene units.
     [[nodiscard]] double reach(const FiberPiece& piece) const;
     [[nodiscard]] YarnCourse course(const FiberPiece& piece) const;

@@ -247,9 +247,9 @@ void FiberGatherer::State::gather_plain(const FiberPiece& piece,
         target.block.paint.color = set.color[set.first[piece.curve] + piece.span + skip];
     }
     chords.clear();
-    // moved outwards as in balance_samples
-    const float twelfth = 1.0f / (12.0f * static_cast<float>(count) * static_cast<float>(count));
-    const auto sample = [&](float t) { return cubic.at(t) - twelfth * cubic.second_derivative(t); };
+    // moved outwards as in make_chords
+    const float outwards = 1.0f / (24.0f * static_cast<float>(count) * static_cast<float>(count));
+    const auto sample = [&](float t) { return cubic.at(t) - outwards * cubic.second_derivative(t); };
     Vec3f from = sample(0.0f);
     for (int j = 0; j < count; ++j) {
         const float t1 = static_cast<float>(j + 1) / static_cast<float>(count);
@@ -269,8 +269,12 @@ void FiberGatherer::State::gather_plain(const FiberPiece& piece,
         chords[j].before = bend * chords[j].radius;
     }
     if (!chords.empty()) {
-        chords.front().before = chords.front().radius * joint_bend(set, piece, false);
-        chords.back().after = chords.back().radius * joint_bend(set, piece, true);
+        const auto end_bend = [&](const Chord& chord, bool end) {
+            if (set.basis == Basis::Linear) return joint_bend(set, piece, end);
+            return length(chord.dir - normalize(cubic.derivative(end ? 1.0f : 0.0f), chord.dir));
+        };
+        chords.front().before = chords.front().radius * end_bend(chords.front(), false);
+        chords.back().after = chords.back().radius * end_bend(chords.back(), true);
     }
     gather_run(target);
 }
@@ -434,7 +438,7 @@ void FiberGatherer::gather(std::span<const PieceId> pieces,
     for (const PieceId id : pieces) {
         if (done++ % 64 == 0) progress.check();
         const FiberPiece piece =
-            state.source.piece(id >> 16, static_cast<std::uint32_t>(id & 0xffff));
+            FiberSource::part_of(state.source.whole_span(id >> 16), static_cast<std::uint32_t>(id & 0xffff));
         if (piece.set != set) state.queue.flush(state.target_of(set, block));
         set = piece.set;
         state.gather_piece(piece, block);

@@ -11,8 +11,8 @@
 
 namespace heddle {
 
-/// Largest sagitta of a chord, in units (subvoxel edges). Samples are moved outwards so that a chord's
-/// mean distance from its fiber is 0; what is left is at most 1/3 at the joints, 1/6 between, 0.15 rms.
+/// Largest sagitta of a chord, in units (subvoxel edges). Samples are moved outwards so that a chord is
+/// as long as its arc; its distance from the fiber is then at most 2/3 of this, 1/3 in the mean.
 constexpr double kChordSagitta = 1.0 / 2.0;
 
 /// A piece of a span that reaches into a block: span << 16 | part.

@@ -1,0 +1,148 @@
+#include <heddle/base/parallel.h>
+#include <heddle/base/random.h>
+#include <heddle/geom/generate.h>
+#include <heddle/voxel/test_voxelize.h>
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <tuple>
+
+namespace heddle {
+namespace {
+
+using namespace heddle::test;
+
+/// A knitted swatch of plied yarn and tapered hair with colours, two materials.
+const Geometry& swatch() {
+    static const Geometry geometry = [] {
+        GenerateOptions knit;
+        knit.nx = 3;
+        knit.ny = 3;
+        Geometry g = generate(knit);
+        g.materials.resize(2);
+        for (Material& m : g.materials) m.kind = MaterialKind::Fiber;
+        YarnType yarn;
+        yarn.model = YarnModel::Procedural;
+        yarn.fiber_radius = 0.05f;
+        yarn.plies = 2;
+        yarn.fibers_per_ply = 16;
+        yarn.ply_offset = 0.5f;
+        yarn.ellipse_long = yarn.ellipse_short = 0.45f;
+        yarn.ply_pitch = 6.0f;
+        yarn.fiber_pitch = 3.0f;
+        g.yarns.push_back(yarn);
+        g.curves[0].yarn = 0;
+        GenerateOptions hair;
+        hair.kind = GenerateKind::Hair;
+        hair.nx = 200;
+        hair.ny = 8;
+        Geometry strands = generate(hair);
+        strands.curves[0].material = 1;
+        for (std::size_t i = 0; i < strands.curves[0].points.size(); ++i) {
+            strands.curves[0].color.push_back(static_cast<std::uint32_t>(hash64(3, i) & 0xffffff));
+        }
+        g.curves.push_back(strands.curves[0]);
+        return g;
+    }();
+    return geometry;
+}
+
+using Key = std::tuple<int, int, int>;
+struct Content {
+    Coverage coverage;
+    std::vector<Lobe> lobes;
+    std::vector<LobeMaps> maps;
+    friend bool operator==(const Content&, const Content&) = default;
+};
+
+std::map<Key, Content> content_of(const VoxelSource& source) {
+    std::map<Key, Content> content;
+    for_each_voxel(source, [&](const FoundVoxel& v) {
+        content[{v.at.x, v.at.y, v.at.z}] = {
+            v.coverage, {v.lobes.begin(), v.lobes.end()}, {v.maps.begin(), v.maps.end()}};
+    });
+    EXPECT_EQ(static_cast<std::int64_t>(content.size()), source.info().voxel_count);
+    return content;
+}
+
+VoxelizeOptions options_of(std::int64_t voxels) {
+    VoxelizeOptions options;
+    options.voxels = voxels;
+    options.seed = 5;
+    options.spool_dir = testing::TempDir();
+    return options;
+}
+
+TEST(VoxelizeParity, AnyNumberOfThreadsGivesTheSameBits) {
+    set_thread_count(1);
+    const std::map<Key, Content> one = content_of(*voxelize_now(swatch(), options_of(150)));
+    set_thread_count(2);
+    const std::map<Key, Content> two = content_of(*voxelize_now(swatch(), options_of(150)));
+    set_thread_count(0);
+    EXPECT_GT(one.size(), 10000u);
+    EXPECT_TRUE(one == two);
+}
+
+TEST(VoxelizeParity, BatchesAndTheSpoolGiveTheSameBits) {
+    const VoxelizeOptions options = options_of(150);
+    VoxelizePlan plan = plan_voxelize(swatch(), options);
+    plan.batches = 1;
+    plan.spool = false;
+    Progress silent;
+    const std::map<Key, Content> whole = content_of(*voxelize(swatch(), options, plan, silent));
+    plan.batches = 7;
+    plan.spool = true;
+    EXPECT_TRUE(whole == content_of(*voxelize(swatch(), options, plan, silent)));
+}
+
+TEST(VoxelizeParity, AMemoryLimitIsPlannedForAndGivesTheSameBits) {
+    VoxelizeOptions options = options_of(300);
+    options.memory_bytes = std::int64_t{8} << 30;
+    const VoxelizePlan roomy = plan_voxelize(swatch(), options);
+    EXPECT_FALSE(roomy.spool);
+    Progress silent;
+    const std::map<Key, Content> whole = content_of(*voxelize(swatch(), options, roomy, silent));
+    // so much less that the result (8 bytes a voxel and more) no longer fits beside the work
+    options.memory_bytes = roomy.peak_bytes - roomy.voxels * 8;
+    const VoxelizePlan tight = plan_voxelize(swatch(), options);
+    EXPECT_TRUE(tight.spool);
+    EXPECT_LE(tight.peak_bytes, options.memory_bytes);
+    EXPECT_TRUE(whole == content_of(*voxelize(swatch(), options, tight, silent)));
+}
+
+TEST(VoxelizeParity, ARegionGivesTheVoxelsOfTheWhole) {
+    VoxelizeOptions options = options_of(0);
+    const Bounds box = plan_voxelize(swatch(), options_of(150)).bounds;
+    const double h = box.size().x / 120.0;
+    options.voxel_size = {h, h, 1.5 * h};
+    const std::map<Key, Content> whole = content_of(*voxelize_now(swatch(), options));
+    Bounds region;
+    region.grow(box.lo + box.size() * 0.3);
+    region.grow(box.lo + box.size() * 0.75);
+    options.bounds = region;
+    const std::map<Key, Content> part = content_of(*voxelize_now(swatch(), options));
+    const auto inside = [&](const Key& key) {
+        const auto [x, y, z] = key;
+        const Vec3d edge = options.voxel_size;
+        const Vec3d lo = Vec3d{double(x), double(y), double(z)} * edge;
+        for (int a = 0; a < 3; ++a) {
+            if (lo[a] < region.lo[a] || lo[a] + edge[a] > region.hi[a]) return false;
+        }
+        return true;
+    };
+    std::size_t compared = 0;
+    for (const auto& [key, content] : whole) {
+        if (!inside(key)) continue;
+        ++compared;
+        const auto found = part.find(key);
+        ASSERT_TRUE(found != part.end());
+        ASSERT_TRUE(found->second == content);
+    }
+    EXPECT_GT(compared, 1000u);
+    EXPECT_LT(part.size(), whole.size() / 2);
+    for (const auto& [key, content] : part) EXPECT_EQ(whole.count(key), 1u);
+}
+
+} // namespace
+} // namespace heddle
