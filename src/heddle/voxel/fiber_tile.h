@@ -5,7 +5,6 @@
 #include <heddle/geom/fiber_table.h>
 
 #include <cstddef>
-#include <span>
 
 namespace heddle {
 
@@ -50,12 +49,5 @@ struct PlyPart {
     std::size_t begin, end;
     const PlyFrame* frames;
 };
-
-/// Fills a tile with the fibers of `parts`, whose number is tile.fibers, at tile.chords + 3 samples.
-/// The same bits with and without AVX2.
-void expand_fibers(FiberTile& tile,
-                   std::span<const PlyPart> parts,
-                   const PlySection& section,
-                   const FiberTable& table);
 
 } // namespace heddle

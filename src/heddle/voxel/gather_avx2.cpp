@@ -1,5 +1,4 @@
 // The only file that is compiled for AVX2: gather_kernels.cpp calls it where the machine has that.
-#include <heddle/voxel/fiber_tile.h>
 #include <heddle/voxel/gather_kernels.h>
 
 #include <heddle/voxel/lanes_avx2.h>

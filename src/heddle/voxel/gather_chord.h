@@ -97,6 +97,10 @@ HEDDLE_INLINE void pool_moment(BlockSums& block,
         for (std::size_t i = 0; i < 3; ++i) {
             maps.albedo[i] += area * ((paint.color >> (8 * i)) & 0xff);
         }
+        // a fiber's material has no such maps: its own numbers, unchanged
+        maps.roughness += 255 * area;
+        maps.metalness += 255 * area;
+        maps.anisotropy += 255 * area;
     }
 }
 

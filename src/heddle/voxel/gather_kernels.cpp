@@ -1,4 +1,3 @@
-#include <heddle/voxel/fiber_tile.h>
 #include <heddle/voxel/gather_kernels.h>
 
 #include <heddle/voxel/lanes_portable.h>
@@ -12,14 +11,6 @@
 #include <heddle/voxel/expand_lanes.h>
 
 namespace heddle {
-
-namespace avx2 { // gather_avx2.cpp
-void gather(const ChordArrays& chords, const GatherTarget& target);
-void expand(FiberTile& tile,
-            std::span<const PlyPart> parts,
-            const PlySection& section,
-            const FiberTable& table);
-} // namespace avx2
 
 namespace {
 

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <heddle/voxel/fiber_tile.h>
 #include <heddle/voxel/gather_chord.h>
 
 #include <cstdint>
+#include <span>
 
 namespace heddle {
 
@@ -33,5 +35,28 @@ struct GatherTarget {
 /// Adds thin chords to the voxels that they meet: eight chords at once, column by column along each.
 /// The same bits with and without AVX2, which is used where the machine has it.
 void gather_thin(const ChordArrays& chords, const GatherTarget& target);
+
+/// Fills a tile with the fibers of `parts`, whose number is tile.fibers, at tile.chords + 3 samples.
+/// The same bits with and without AVX2.
+void expand_fibers(FiberTile& tile,
+                   std::span<const PlyPart> parts,
+                   const PlySection& section,
+                   const FiberTable& table);
+
+/// What the two above choose from; avx2 is there where HEDDLE_WITH_AVX2 is 1.
+namespace portable {
+void gather(const ChordArrays& chords, const GatherTarget& target);
+void expand(FiberTile& tile,
+            std::span<const PlyPart> parts,
+            const PlySection& section,
+            const FiberTable& table);
+} // namespace portable
+namespace avx2 {
+void gather(const ChordArrays& chords, const GatherTarget& target);
+void expand(FiberTile& tile,
+            std::span<const PlyPart> parts,
+            const PlySection& section,
+            const FiberTable& table);
+} // namespace avx2
 
 } // namespace heddle
