@@ -237,7 +237,7 @@ TEST(TriangleGatherer, ARegionHasTheVoxelsOfTheWhole) {
         Geometry g = textured_ball();
         if (!textured) g.meshes[0].normals.clear(), g.meshes[0].uvs.clear();
         for (const FitMode fit : {FitMode::Moments, FitMode::Last}) {
-            VoxelizeOptions options = voxels_of(0.025);
+            VoxelizeOptions options = voxels_of(0.025, 4);
             options.fit = fit;
             const FoundVoxels whole = run(g, options);
             options.bounds = Bounds{{-0.35, -0.9, 0.2}, {0.41, 0.3, 0.93}};
