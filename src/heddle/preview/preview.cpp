@@ -158,6 +158,9 @@ private:
     };
     static constexpr float kOpaque = 0.004f; ///< less than this is not followed
     static constexpr int kFlatWidth = 96;    ///< of a normal lobe: a sheet, not foliage
+    /// More than what is exact in the mean: the parts that a ray meets do not add up to just 1. At 1
+    /// slanted surfaces look moth-eaten, at 1.5 closed; edges come out half a voxel wider.
+    static constexpr float kClosing = 1.5f;
     static constexpr double kSheetGap =
         0.5; ///< voxels that a ray may pass between two of a sheet's
 
@@ -222,21 +225,31 @@ private:
     void add(State& s, const Voxel& v, Vec3i leaf, double t, double leave) const {
         const Vec3f k = Vec3f{static_cast<float>(v.depth[0]), static_cast<float>(v.depth[1]),
                               static_cast<float>(v.depth[2])} *
-                        s.weight;
-        const float depth = heddle::length(k) * (preview::kMaxDepth / 255.0f);
-        const float opaque = 1.0f - std::exp(-depth * static_cast<float>(leave - t));
-        const float hidden = s.through * hidden_part(s, v, opaque, t, leave);
+                        (preview::kMaxDepth / 255.0f);
+        const bool flat = !v.is_fiber() && v.width < kFlatWidth;
+        const float hidden =
+            s.through *
+            (flat ? hidden_by_sheet(s, v, k, t, leave)
+                  : 1.0f - std::exp(-heddle::length(k * s.weight) * static_cast<float>(leave - t)));
         // the light stands at the eye: what lies behind other voxels is in their shadow
         const float light = options_.color == PreviewColor::Albedo ? 0.5f + 0.5f * s.through : 1.0f;
         s.color = s.color + shade(v, leaf) * (hidden * light);
         s.through -= hidden;
     }
 
-    /// What of the light a voxel takes. Voxels hide independently of each other, but for those of one
-    /// sheet: what one of them covers of it, the next does not. A sheet at a slant would else let
-    /// through a quarter of the light where it passes from one layer of voxels to the next.
-    float hidden_part(State& s, const Voxel& v, float opaque, double t, double leave) const {
-        if (v.fiber != 0 || v.width >= kFlatWidth) return opaque;
+    /// What of the light a voxel of a flat surface takes: the surface's projected area, A n d, over
+    /// the voxel's, with A n_a = c_a h^2 seen along the axes. A surface is met wherever the ray enters
+    /// the voxel, and voxels of one surface share it: what one of them covers, the next does not. As
+    /// a medium, a surface at a slant would have holes at every step from layer to layer.
+    float hidden_by_sheet(State& s, const Voxel& v, Vec3f k, double t, double leave) const {
+        float surface = 0.0f;
+        float voxel = 0.0f;
+        for (int a = 0; a < 3; ++a) {
+            const float c = 1.0f - std::exp(-k[a]);
+            surface += (v.is_negative(a) ? -c : c) * s.weight[a];
+            voxel += std::abs(s.weight[a]);
+        }
+        const float opaque = kClosing * std::abs(surface) / voxel;
         const Vec3d h = scene_.voxel_size();
         if (t > s.sheet_end + kSheetGap * std::min({h.x, h.y, h.z})) s.sheet_left = 1.0f;
         s.sheet_end = leave;
@@ -271,7 +284,7 @@ private:
                          static_cast<float>(v.color[1]) / 255.0f,
                          static_cast<float>(v.color[2]) / 255.0f};
         const float along = std::abs(dot(axis, eye_));
-        const float facing = v.fiber != 0 ? std::sqrt(std::max(0.0f, 1.0f - along * along)) : along;
+        const float facing = v.is_fiber() ? std::sqrt(std::max(0.0f, 1.0f - along * along)) : along;
         const float wide = static_cast<float>(v.width) / 255.0f;
         const float f = facing + (0.75f - facing) * wide;
         const float f2 = f * f, f8 = f2 * f2 * f2 * f2;

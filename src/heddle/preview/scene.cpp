@@ -46,6 +46,7 @@ public:
         Voxel out{};
         out.depth = {depths_[c.x], depths_[c.y], depths_[c.z]};
         out.width = to_byte(lobe_width(S, axis));
+        for (int a = 0; a < 3; ++a) out.flags |= static_cast<std::uint8_t>((axis[a] < 0.0f) << a);
         const bool brushed = tangents_ && block.tangents[l].sigma[0] != 0; // all zero: isotropic
         if (brushed) axis = principal_direction(unpack(block.tangents[l]));
         for (int a = 0; a < 3; ++a) {
@@ -54,7 +55,7 @@ public:
         }
         out.material = lobe.material;
         if (lobe.material < info_.materials.size()) {
-            out.fiber = info_.materials[lobe.material].kind == MaterialKind::Fiber ? 1 : 0;
+            if (info_.materials[lobe.material].kind == MaterialKind::Fiber) out.flags |= 8;
         }
         out.color = mean_color(block, v, l);
         return out;

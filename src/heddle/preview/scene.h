@@ -18,7 +18,10 @@ struct Voxel {
     std::array<std::uint8_t, 3> color; ///< sRGB-like: square root of linear
     std::array<std::int8_t, 3> axis;   ///< heaviest lobe's direction, 127 = 1
     std::uint8_t material;             ///< of the heaviest lobe
-    std::uint8_t fiber;                ///< 1: `axis` is a tangent, 0: a normal
+    std::uint8_t flags; ///< bit 3: fiber; bits 0 to 2: the normal is < 0 on that axis
+
+    [[nodiscard]] bool is_fiber() const { return (flags & 8) != 0; }
+    [[nodiscard]] bool is_negative(int a) const { return (flags >> a & 1) != 0; }
 };
 static_assert(sizeof(Voxel) == 12);
 

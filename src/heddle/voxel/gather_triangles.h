@@ -4,6 +4,7 @@
 #include <heddle/voxel/accumulator.h>
 #include <heddle/voxel/bin.h>
 #include <heddle/voxel/displace.h>
+#include <heddle/voxel/surface_hits.h>
 #include <heddle/voxel/surface_sample.h>
 #include <heddle/voxel/voxelize.h>
 
@@ -35,16 +36,6 @@ private:
     Vec3d subvoxel_size_;
     SurfaceSampler sampler_;
     std::vector<std::vector<Vec3f>> normals_; ///< per mesh; empty unless displaced without its own
-};
-
-/// What was done for some triangles.
-struct TriangleWork {
-    std::int64_t hits = 0;    ///< centre lines met
-    std::int64_t samples = 0; ///< times that normals and maps were read
-
-    friend TriangleWork operator+(TriangleWork a, TriangleWork b) {
-        return {a.hits + b.hits, a.samples + b.samples};
-    }
 };
 
 /// Adds triangles to blocks. One per thread.
