@@ -137,11 +137,15 @@ void report_textures(Report& report, const std::vector<Texture>& textures) {
 }
 
 /// What voxelizing would take, or in one row why it cannot be done as asked.
-void report_plan(Report& report, const Geometry& geometry, const VoxelizeOptions& options) {
+void report_plan(Report& report,
+                 const Geometry& geometry,
+                 const VoxelizeOptions& options,
+                 const ProgressBar& bar) {
     VoxelizePlan plan;
     try {
-        plan = plan_voxelize(geometry, options);
+        plan = plan_voxelize(geometry, options, bar);
     } catch (const Error& e) {
+        if (e.code() == ErrorCode::Cancelled) throw;
         return report.text("voxelizing", e.what());
     }
     const Vec3d size = plan.lattice.voxel_size;
@@ -151,7 +155,10 @@ void report_plan(Report& report, const Geometry& geometry, const VoxelizeOptions
     report_work(report, plan);
 }
 
-void report_input(Report& report, const std::string& path, const Arguments& arguments) {
+void report_input(Report& report,
+                  const std::string& path,
+                  const Arguments& arguments,
+                  const ProgressBar& bar) {
     Geometry geometry = load_geometry(path, arguments);
     apply_model(geometry, arguments);
     Bounds bounds;
@@ -164,7 +171,7 @@ void report_input(Report& report, const std::string& path, const Arguments& argu
     }
     report_materials(report, geometry.materials);
     report_textures(report, geometry.textures);
-    report_plan(report, geometry, resolution_from(arguments));
+    report_plan(report, geometry, resolution_from(arguments), bar);
     for (const std::string& note : geometry.notes) report.note(note);
 }
 
@@ -200,7 +207,7 @@ void run_info(const Arguments& arguments, Report& report, ProgressBar& bar) {
     if (suffix_of(path) == ".vdb") {
         report_volume(report, path);
     } else {
-        report_input(report, path, arguments);
+        report_input(report, path, arguments, bar);
     }
     std::error_code ignored;
     const std::uintmax_t size = std::filesystem::file_size(path, ignored);

@@ -37,6 +37,7 @@ void report_work(Report& report, const VoxelizePlan& plan) {
     report.add("steps", "steps", plan.steps,
                str(show_count(plan.steps), " subvoxel edges of fiber length"));
     report.count("predicted voxels", plan.voxels);
+    report.count("predicted touched subvoxels", plan.touched_subvoxels);
     report.bytes("predicted file size",
                  predict_vdb_bytes(plan.leaves, plan.voxels, plan.lobes, plan.fields).file);
     report.bytes("predicted peak memory", plan.peak_bytes);

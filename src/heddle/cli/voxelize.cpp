@@ -74,7 +74,7 @@ void run_voxelize(const Arguments& arguments, Report& report, ProgressBar& bar) 
     apply_model(geometry, arguments);
     bar.check();
     bar.begin("plan", "files", 1);
-    const VoxelizePlan plan = plan_voxelize(geometry, options);
+    const VoxelizePlan plan = plan_voxelize(geometry, options, bar);
     bar.finish();
     for (const std::string& note : geometry.notes) report.note(note);
     report_plan(report, plan);

@@ -187,7 +187,10 @@ void choose_range(VoxelizePlan& plan, const std::string& name) {
 /// Runs a hashed sample of the blocks and scales what came out: of fibers by the pieces that the
 /// blocks hold, of surfaces by the blocks (a fine mesh has many triangles and no more voxels).
 /// @return  sums over all blocks
-BlockCounts measure_sample(VoxelizePlan& plan, const VoxelizeContext& context, const Bins& bins) {
+BlockCounts measure_sample(VoxelizePlan& plan,
+                           const VoxelizeContext& context,
+                           const Bins& bins,
+                           const Progress& progress) {
     const std::size_t blocks = bins.blocks().size();
     if (blocks == 0) return {};
     const bool surfaces = context.triangles.count() > context.fibers.span_count();
@@ -202,14 +205,13 @@ BlockCounts measure_sample(VoxelizePlan& plan, const VoxelizeContext& context, c
         chosen.push_back(bins.blocks()[i + hash64(0, i) % width]);
         entries += static_cast<double>(bins.entries(chosen.back()));
     }
-    const Progress silent;
-    const Bins::Lists lists = bins.fill(chosen, silent);
+    const Bins::Lists lists = bins.fill(chosen, progress);
     WorkerPool pool(context);
     std::vector<BlockCounts> counts(chosen.size());
     parallel_chunks(chosen.size(), 1, [&](std::size_t s, std::size_t) {
         pool.with([&](BlockWorker& worker) {
             VoxelBlock out;
-            counts[s] = worker.run(chosen[s], lists.of(s), silent, out);
+            counts[s] = worker.run(chosen[s], lists.of(s), progress, out);
         });
     });
     const double scale = surfaces
@@ -288,7 +290,9 @@ void plan_memory(VoxelizePlan& plan, const VoxelizeContext& context, const Bins&
 
 } // namespace
 
-VoxelizePlan plan_voxelize(const Geometry& geometry, const VoxelizeOptions& options) {
+VoxelizePlan plan_voxelize(const Geometry& geometry,
+                           const VoxelizeOptions& options,
+                           const Progress& progress) {
     check_options(options);
     check_geometry(geometry);
     const Bounds whole = bounds_of(geometry);
@@ -307,8 +311,7 @@ VoxelizePlan plan_voxelize(const Geometry& geometry, const VoxelizeOptions& opti
     }
     choose_range(plan, geometry.name);
     const VoxelizeContext context(geometry, options, plan.lattice, plan.voxel_lo, plan.voxel_hi);
-    const Progress silent;
-    const Bins bins(context.fibers, context.triangles, context.range, silent);
+    const Bins bins(context.fibers, context.triangles, context.range, progress);
     plan.fields = context.fit.fields;
     plan.block_voxels = kBlockVoxels;
     plan.blocks = static_cast<std::int64_t>(bins.blocks().size());
@@ -317,7 +320,7 @@ VoxelizePlan plan_voxelize(const Geometry& geometry, const VoxelizeOptions& opti
     plan.steps = context.fibers.steps();
     plan.step_length = context.units.unit;
     plan.chord_error = kChordSagitta * 2.0 / 3.0;
-    const BlockCounts work = measure_sample(plan, context, bins);
+    const BlockCounts work = measure_sample(plan, context, bins, progress);
     plan.seconds = (kSecondsPerStep * plan.steps +
                     kSecondsPerSubvoxel * static_cast<double>(plan.touched_subvoxels) +
                     kSecondsPerVoxel * static_cast<double>(plan.voxels) +

@@ -66,8 +66,10 @@ struct VoxelizePlan {
 
 /// Plans the work: grid, blocks, batches, predicted bytes and time.
 /// @throws Error  BadFile: an object without extent; InvalidArgument: voxel size not finite or <= 0,
-///                more than 2^40 voxels or 2^30 along an axis; OutOfMemory: `memory_bytes` below the least
-[[nodiscard]] VoxelizePlan plan_voxelize(const Geometry& geometry, const VoxelizeOptions& options);
+///                more than 2^40 voxels or 2^30 along an axis; OutOfMemory: `memory_bytes` below the least; Cancelled
+[[nodiscard]] VoxelizePlan plan_voxelize(const Geometry& geometry,
+                                         const VoxelizeOptions& options,
+                                         const Progress& progress = Progress());
 
 /// Voxelizes `geometry`: same bits for any thread count, memory limit and batch size; a region
 /// (`options.bounds`) gives the same voxels as the whole.      [Fabre26, 3; docs/voxelizer.md]
