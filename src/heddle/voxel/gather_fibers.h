@@ -11,8 +11,10 @@
 
 namespace heddle {
 
-/// Largest sagitta of a chord, in units (subvoxel edges). Samples are moved outwards so that a chord is
-/// as long as its arc; its distance from the fiber is then at most 2/3 of this, 1/3 in the mean.
+/// Largest sagitta of a chord, in units (subvoxel edges). The samples between chords are moved outwards,
+/// in yarns so that a chord's mean distance from its fiber is 0 (then at most 2/3 of this: coverage of
+/// bundles is unbiased), in single curves half as far, so that it is as long as its arc (their volume
+/// is right).                                                              [bench/results/exact.md]
 constexpr double kChordSagitta = 1.0 / 2.0;
 
 /// A piece of a span that reaches into a block: span << 16 | part.
