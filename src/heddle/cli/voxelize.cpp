@@ -109,7 +109,7 @@ Command voxelize_command() {
     };
     add(resolution_options());
     add({{"--bounds", "X0,Y0,Z0,X1,Y1,Z1", "(all of the object)", numbers(6, 6, -kInf, kInf),
-          "scene units", "keeps the voxels that lie inside this box"}});
+          "scene units", "keeps the voxels that touch this box"}});
     add(load_options());
     add(model_options());
     add({

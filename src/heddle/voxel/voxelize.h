@@ -25,7 +25,7 @@ enum class FitMode : std::uint8_t {
 struct VoxelizeOptions {
     Vec3d voxel_size{};           ///< scene units per axis; all 0: from `voxels`
     std::int64_t voxels = 0;      ///< along the longest axis; 0: 512
-    std::optional<Bounds> bounds; ///< scene units; voxels that lie inside it are kept
+    std::optional<Bounds> bounds; ///< scene units; voxels that it touches are kept
     std::int32_t subvoxels = 8;   ///< per voxel axis: 1, 2, 4 or 8
     std::int32_t max_lobes = 3;   ///< K, 1 to 8
     CoverageMode coverage = CoverageMode::Columns;
