@@ -4,6 +4,7 @@
 #include <heddle/base/trig.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -39,15 +40,20 @@ float draw_radius(const YarnType& type, CounterRandom& random) {
 }
 
 void place_plies(FiberTable& table, const YarnType& type, CounterRandom& random) {
+    std::vector<std::array<float, 3>> fibers;
     for (std::int32_t p = 0; p < type.plies; ++p) {
         const SinCos base = sincos_turns(static_cast<double>(p) / type.plies);
         table.ply_cos.push_back(base.cos);
         table.ply_sin.push_back(base.sin);
+        fibers.clear();
         for (std::int32_t f = 0; f < type.fibers_per_ply; ++f) {
             const float r = draw_radius(type, random);
             const float angle = random.uniform();
-            push_fiber(table, r, angle, random.uniform(), 0xffffff);
+            fibers.push_back({angle, r, random.uniform()});
         }
+        // neighbours in the table pass the same voxels: what works on eight at once gains
+        std::sort(fibers.begin(), fibers.end());
+        for (const auto& [angle, r, phase] : fibers) push_fiber(table, r, angle, phase, 0xffffff);
         table.first_of_ply.push_back(static_cast<std::uint32_t>(table.radius.size()));
     }
 }

@@ -66,6 +66,8 @@ struct Real {
     friend Mask operator!=(Real a, Real b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_NEQ_UQ)}; }
 };
 
+inline Int min(Int a, Int b) { return _mm256_min_epi32(a.v, b.v); }
+inline Int max(Int a, Int b) { return _mm256_max_epi32(a.v, b.v); }
 /// a < b ? a : b
 inline Real min(Real a, Real b) { return _mm256_min_ps(a.v, b.v); }
 /// a > b ? a : b

@@ -116,6 +116,12 @@ struct Real {
     }
 };
 
+inline Int min(Int a, Int b) {
+    return detail::each<Int>([&](int l) { return a.v[l] < b.v[l] ? a.v[l] : b.v[l]; });
+}
+inline Int max(Int a, Int b) {
+    return detail::each<Int>([&](int l) { return a.v[l] > b.v[l] ? a.v[l] : b.v[l]; });
+}
 inline Real min(Real a, Real b) {
     return detail::each<Real>([&](int l) { return a.v[l] < b.v[l] ? a.v[l] : b.v[l]; });
 }

@@ -89,29 +89,37 @@ struct Candidates {
     }
 };
 
-/// Sets a column's bit in each hit lane's voxel. Of all lanes, the others in voxels that nobody reads:
-/// no branch to guess wrong.
+/// Sets a column's bit in each hit lane's voxel, and for z a run of its subvoxels: for all lanes where
+/// most hit, the others in voxels that nobody reads (no branch to guess wrong), else hits first and for
+/// half as many.
 /// @param packed  cell | bit << 16
+/// @param run     first subvoxel's bit | length << 9
 template <int kDepth>
-inline void set_columns(const LaneBlock& b, Mask hits, Int packed) {
-    alignas(32) std::int32_t value[kLanes];
-    select(hits, packed, Int::iota() + Int(BlockSums::kVoxels)).store(value);
-    for (int l = 0; l < kLanes; ++l) {
-        const auto p = static_cast<std::uint32_t>(value[l]);
-        b.voxel(p & 0xffff).column[kDepth] |= std::uint64_t{1} << (p >> 16);
+inline void set_columns(const LaneBlock& b, Mask hits, Int packed, Int run) {
+    alignas(32) std::int32_t cells[kLanes];
+    alignas(32) std::int32_t runs[kLanes];
+    packed = select(hits, packed, Int::iota() + Int(BlockSums::kVoxels));
+    const std::uint32_t mask = hits.bits();
+    const bool few = std::popcount(mask) <= kLanes / 2;
+    if (few) { // lane 0 fills up: setting its bits again changes nothing
+        const Int order = set_lanes(mask);
+        packed = pick(packed, order);
+        run = pick(run, order);
     }
-}
-
-/// Sets a run of subvoxels along z in each hit lane's voxel, as set_columns.
-/// @param packed  cell | first bit << 16 | (length - 1) << 25
-inline void set_subvoxels(const LaneBlock& b, Mask hits, Int packed) {
-    alignas(32) std::int32_t value[kLanes];
-    select(hits, packed, Int::iota() + Int(BlockSums::kVoxels)).store(value);
-    for (int l = 0; l < kLanes; ++l) {
-        const auto p = static_cast<std::uint32_t>(value[l]);
-        const std::uint64_t run = (std::uint64_t{2} << (p >> 25)) - 1;
-        b.voxel(p & 0xffff).sub[(p >> 22) & 7] |= run << ((p >> 16) & 63);
-    }
+    packed.store(cells);
+    run.store(runs);
+    const auto set = [&](int l) {
+        const auto p = static_cast<std::uint32_t>(cells[l]);
+        VoxelSums& voxel = b.voxel(p & 0xffff);
+        voxel.column[kDepth] |= std::uint64_t{1} << (p >> 16);
+        if constexpr (kDepth == 2) {
+            const auto r = static_cast<std::uint32_t>(runs[l]);
+            voxel.sub[(r >> 6) & 7] |= ((std::uint64_t{1} << (r >> 9)) - 1) << (r & 63);
+        }
+    };
+    for (int l = 0; l < kLanes / 2; ++l) set(l);
+    if (few) return;
+    for (int l = kLanes / 2; l < kLanes; ++l) set(l);
 }
 
 /// Names a direction in voxels that chords meet beside their centrelines.
@@ -168,12 +176,25 @@ inline void mark_candidates(const LaneBlock& b, const ChordLanes& k, const LaneV
         const Int bit = (((ib & low) << shift) | (ia & low)) << 16;
         Int depth = to_int(floor(enter * inv_voxel));
         const Int last = to_int(floor(leave * inv_voxel));
+        Int z0(0), z1(0), row(0);
+        if constexpr (kDepth == 2) {
+            const Real inv_edge(u.inv_edge[2]);
+            z0 = to_int(ceil(enter * inv_edge - Real(0.5f)));
+            z1 = to_int(floor(leave * inv_edge - Real(0.5f)));
+            row = (((ia & low) << shift) | (ib & low)) << shift;
+        }
         for (Mask open = hit; open.bits() != 0;) {
             const Int word = base + (depth << kC);
             const Mask here = open & b.holds(word);
             if (here.bits() != 0) {
                 const Int cell = LaneBlock::cell(word);
-                set_columns<kDepth>(b, here, cell | bit);
+                Int run(0);
+                if constexpr (kDepth == 2) { // the part of z0 .. z1 in this voxel
+                    const Int from = max(z0, depth << shift);
+                    const Int to = min(z1, (depth << shift) + low);
+                    run = row | (from & low) | (max(to - from + Int(1), Int(0)) << 9);
+                }
+                set_columns<kDepth>(b, here, cell | bit, run);
                 const Mask passed =
                     (word == pick(k.passed[0], lane)) | (word == pick(k.passed[1], lane)) |
                     (word == pick(k.passed[2], lane)) | (word == pick(k.passed[3], lane));
@@ -183,23 +204,6 @@ inline void mark_candidates(const LaneBlock& b, const ChordLanes& k, const LaneV
             }
             open = open & (last > depth);
             depth = depth + Int(1);
-        }
-        if constexpr (kDepth == 2) {
-            const Real inv_edge(u.inv_edge[2]);
-            Int z = to_int(ceil(enter * inv_edge - Real(0.5f)));
-            const Int end = to_int(floor(leave * inv_edge - Real(0.5f)));
-            const Int row = (((ia & low) << shift) | (ib & low)) << shift;
-            for (Mask open = without(hit, z > end); open.bits() != 0;) {
-                const Int voxel = z >> shift;
-                const Int next = (voxel + Int(1)) << shift; // of the next voxel's first
-                const Int word = base + voxel;
-                const Int to = select(next > end, end, next - Int(1));
-                const Int packed = LaneBlock::cell(word) | ((row | (z & low)) << 16) |
-                                   ((to - z) << 25);
-                set_subvoxels(b, open & b.holds(word), packed);
-                open = without(open, next > end);
-                z = next;
-            }
         }
     }
 }
