@@ -16,7 +16,8 @@ namespace {
 
 bool use_avx2() {
 #if HEDDLE_WITH_AVX2
-    static const bool has = __builtin_cpu_supports("avx2") != 0;
+    static const bool has =
+        __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("bmi2") != 0;
     return has;
 #else
     return false;
