@@ -16,20 +16,21 @@ constexpr double kMaxVoxels = 0x1p40;
 constexpr double kMaxAxis = 0x1p30; ///< indices are 32-bit in VDB; room for the lattice's corner
 constexpr std::int64_t kDefaultVoxels = 512;
 
-/// Seconds = (a steps + b touched subvoxels + c voxels) / threads; fitted over nine runs on two cores
-/// of an AMD EPYC with AVX2 (bench/results/voxelize.md).
-constexpr double kSecondsPerStep = 1.0e-8;
-constexpr double kSecondsPerSubvoxel = 2.0e-9;
-constexpr double kSecondsPerVoxel = 4.0e-7;
+/// Seconds of fibers = (a steps + b touched subvoxels + c voxels) / threads; fitted over nine runs on two
+/// cores of an AMD EPYC with AVX2, within 15 % (bench/results/voxelize.md).
+constexpr double kSecondsPerStep = 2.28e-8;
+constexpr double kSecondsPerSubvoxel = 8.4e-9;
+constexpr double kSecondsPerVoxel = 3.0e-6;
 
 /// Of surfaces: a triangle in a block that it was binned to, a column's centre line that it meets,
-/// a read of its maps. Measured on seven meshes (bench/results/ogre_2048.md).
+/// a read of its maps, a voxel. Measured on seven meshes (bench/results/ogre_2048.md).
 constexpr double kSecondsPerTriangle = 1.2e-6;
 constexpr double kSecondsPerHit = 1.6e-8;
 constexpr double kSecondsPerSample = 3.5e-7;
+constexpr double kSecondsPerSurfaceVoxel = 4.0e-7;
 
 /// What the program and its libraries take before any data: measured on `heddle info`.
-constexpr std::int64_t kProgramBytes = 48 << 20;
+constexpr std::int64_t kProgramBytes = 38 << 20;
 
 [[noreturn]] void bad(const std::string& what, const std::string& fix) {
     throw Error(ErrorCode::InvalidArgument, "voxelize: " + what, fix);
@@ -321,12 +322,15 @@ VoxelizePlan plan_voxelize(const Geometry& geometry,
     plan.step_length = context.units.unit;
     plan.chord_error = kChordSagitta * 2.0 / 3.0;
     const BlockCounts work = measure_sample(plan, context, bins, progress);
-    plan.seconds = (kSecondsPerStep * plan.steps +
-                    kSecondsPerSubvoxel * static_cast<double>(plan.touched_subvoxels) +
-                    kSecondsPerVoxel * static_cast<double>(plan.voxels) +
-                    kSecondsPerTriangle * static_cast<double>(work.triangles) +
-                    kSecondsPerHit * static_cast<double>(work.triangle_hits) +
-                    kSecondsPerSample * static_cast<double>(work.surface_samples)) /
+    const auto voxels = static_cast<double>(plan.voxels);
+    const double fibers = kSecondsPerStep * plan.steps +
+                          kSecondsPerSubvoxel * static_cast<double>(plan.touched_subvoxels) +
+                          kSecondsPerVoxel * voxels;
+    const double surfaces = kSecondsPerTriangle * static_cast<double>(work.triangles) +
+                            kSecondsPerHit * static_cast<double>(work.triangle_hits) +
+                            kSecondsPerSample * static_cast<double>(work.surface_samples) +
+                            kSecondsPerSurfaceVoxel * voxels;
+    plan.seconds = ((plan.steps > 0.0 ? fibers : 0.0) + (work.triangles > 0 ? surfaces : 0.0)) /
                    thread_count();
     plan_memory(plan, context, bins);
     return plan;
