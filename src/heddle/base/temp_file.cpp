@@ -2,10 +2,10 @@
 
 #include <heddle/base/error.h>
 
+#include <unistd.h>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <unistd.h>
 
 namespace heddle {
 
@@ -20,7 +20,9 @@ TempFile::TempFile(const std::string& folder) : folder_(folder) {
     unlink(name.c_str());
 }
 
-TempFile::~TempFile() { close(file_); }
+TempFile::~TempFile() {
+    close(file_);
+}
 
 std::int64_t TempFile::append(const void* data, std::size_t bytes) {
     const std::int64_t at = size_;
@@ -29,9 +31,10 @@ std::int64_t TempFile::append(const void* data, std::size_t bytes) {
         const ssize_t wrote = pwrite(file_, from, bytes, size_);
         if (wrote < 0 && errno == EINTR) continue;
         if (wrote <= 0) {
-            throw Error(ErrorCode::OutOfMemory,
-                        str("the temporary file stops at ", size_, " bytes: ", std::strerror(errno)),
-                        "free disk space there, or give more --memory", {.path = folder_});
+            throw Error(
+                ErrorCode::OutOfMemory,
+                str("the temporary file stops at ", size_, " bytes: ", std::strerror(errno)),
+                "free disk space there, or give more --memory", {.path = folder_});
         }
         from += wrote;
         bytes -= static_cast<std::size_t>(wrote);

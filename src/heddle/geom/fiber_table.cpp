@@ -14,7 +14,8 @@ namespace {
 /// Flyaways beyond this many standard deviations are not drawn (io clamps its normal deviates alike).
 constexpr float kMaxDeviate = 2.5f;
 
-void push_fiber(FiberTable& table, float radius, float angle_turns, float phase, std::uint32_t color) {
+void push_fiber(
+    FiberTable& table, float radius, float angle_turns, float phase, std::uint32_t color) {
     const SinCos angle = sincos_turns(static_cast<double>(angle_turns));
     const SinCos migration = sincos_turns(static_cast<double>(phase));
     table.radius.push_back(radius);
@@ -69,9 +70,9 @@ SliceTexel slice_texel(const Texture& image, std::size_t index) {
     std::uint32_t color = 0;
     for (int c = 0; c < 3; ++c) {
         const float v = static_cast<float>(t[c]) / 255.0f;
-        const float linear = !image.srgb       ? v
+        const float linear = !image.srgb     ? v
                              : v <= 0.04045f ? v / 12.92f
-                                               : std::pow((v + 0.055f) / 1.055f, 2.4f);
+                                             : std::pow((v + 0.055f) / 1.055f, 2.4f);
         color |= static_cast<std::uint32_t>(linear * 255.0f + 0.5f) << (8 * c);
     }
     return {color, static_cast<float>(t[3]) / 255.0f};
@@ -84,7 +85,8 @@ void place_slice(FiberTable& table, const YarnType& type, CounterRandom& random)
     const std::size_t texels =
         static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
     double total = 0.0;
-    for (std::size_t i = 0; i < texels; ++i) total += static_cast<double>(slice_texel(image, i).alpha);
+    for (std::size_t i = 0; i < texels; ++i)
+        total += static_cast<double>(slice_texel(image, i).alpha);
     table.ply_cos.push_back(1.0f);
     table.ply_sin.push_back(0.0f);
     double sum = 0.0;
@@ -102,8 +104,10 @@ void place_slice(FiberTable& table, const YarnType& type, CounterRandom& random)
         while (next < fibers && sum > target) {
             const float col = static_cast<float>(i % static_cast<std::size_t>(image.width));
             const float row = static_cast<float>(i / static_cast<std::size_t>(image.width));
-            const float x = 2.0f * (col + random.uniform()) / static_cast<float>(image.width) - 1.0f;
-            const float y = 1.0f - 2.0f * (row + random.uniform()) / static_cast<float>(image.height);
+            const float x =
+                2.0f * (col + random.uniform()) / static_cast<float>(image.width) - 1.0f;
+            const float y =
+                1.0f - 2.0f * (row + random.uniform()) / static_cast<float>(image.height);
             const float r = std::sqrt(x * x + y * y);
             push_fiber(table, r, 0.0f, 0.0f, texel.color);
             if (r > 0.0f) {
@@ -157,7 +161,8 @@ float yarn_reach(const YarnType& type) {
     }
     const float section = std::max(type.ellipse_long, type.ellipse_short) * type.density_r_max;
     const float migration =
-        type.migration ? std::max(std::abs(type.migration_min), std::abs(type.migration_max)) : 1.0f;
+        type.migration ? std::max(std::abs(type.migration_min), std::abs(type.migration_max))
+                       : 1.0f;
     float reach = section * migration;
     if (type.flyaways) {
         const auto most = [](MeanSd v) { return std::abs(v.mean) + kMaxDeviate * v.sd; };

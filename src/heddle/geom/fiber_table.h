@@ -16,14 +16,14 @@ namespace heddle {
 /// the yarn's axis), at (ply_offset + a cos(f) m, b sin(f) m), with f = its angle + 2 pi s / fiber_pitch
 /// and m its migrating radius; the ply's frame turns by 2 pi s / ply_pitch     [Zhao 2016, sec. 4]
 struct FiberTable {
-    std::vector<std::uint32_t> first_of_ply;        ///< plies + 1 offsets
-    std::vector<float> ply_cos, ply_sin;            ///< base angle of each ply
-    std::vector<float> radius;                      ///< distance from the ply's axis, of the unit section
-    std::vector<float> cos_angle, sin_angle;        ///< start angle in the ply's section
+    std::vector<std::uint32_t> first_of_ply; ///< plies + 1 offsets
+    std::vector<float> ply_cos, ply_sin;     ///< base angle of each ply
+    std::vector<float> radius;               ///< distance from the ply's axis, of the unit section
+    std::vector<float> cos_angle, sin_angle; ///< start angle in the ply's section
     std::vector<float> cos_migration, sin_migration; ///< start phase of the migration
     std::vector<float> migration_turns;              ///< the same phase, in turns
-    std::vector<std::uint32_t> color;                ///< linear RGB, 8 bits each; slices only, else white
-    float fiber_radius = 0.0f;                       ///< model units
+    std::vector<std::uint32_t> color; ///< linear RGB, 8 bits each; slices only, else white
+    float fiber_radius = 0.0f;        ///< model units
     static constexpr std::size_t kSpare = 8;
 
     [[nodiscard]] std::size_t size() const {

@@ -5,7 +5,9 @@
 namespace heddle {
 
 BlockSums::BlockSums(bool with_maps)
-    : with_maps_(with_maps), table_(kVoxels + kSpareVoxels, kNone), voxels_(kVoxels + kSpareVoxels) {
+    : with_maps_(with_maps),
+      table_(kVoxels + kSpareVoxels, kNone),
+      voxels_(kVoxels + kSpareVoxels) {
     for (int i = kVoxels; i < kVoxels + kSpareVoxels; ++i) {
         table_[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>(i);
     }

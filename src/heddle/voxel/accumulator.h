@@ -25,9 +25,10 @@ static_assert(sizeof(LobeSums) == 64);
 
 /// All that is gathered in one voxel.
 struct VoxelSums {
-    std::array<std::uint64_t, 3> column{}; ///< per axis, bit b * n + a of the other two axes (a < b)
-    std::array<std::uint64_t, 8> sub{};    ///< subvoxel (x, y, z): bit (x n + y) n + z over all words
-    LobeSums lobe;                         ///< the first material's; weight 0: none yet
+    std::array<std::uint64_t, 3>
+        column{};                       ///< per axis, bit b * n + a of the other two axes (a < b)
+    std::array<std::uint64_t, 8> sub{}; ///< subvoxel (x, y, z): bit (x n + y) n + z over all words
+    LobeSums lobe;                      ///< the first material's; weight 0: none yet
 };
 static_assert(sizeof(VoxelSums) == 152);
 

@@ -13,7 +13,9 @@ namespace {
 
 constexpr std::size_t kGrain = 1024;
 
-int floor_div(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
+int floor_div(int a, int b) {
+    return a >= 0 ? a / b : -((-a + b - 1) / b);
+}
 
 /// Box of block indices, inclusive.
 struct BlockBox {
@@ -28,8 +30,10 @@ BlockBox blocks_of(const Bounds& box, const BlockRange& range, const Vec3d& voxe
         const double first = range.lo[a];
         const double last = first + range.size[a] - 1;
         // clamped in floating point: a box far outside must not overflow the conversion
-        out.lo[a] = static_cast<std::int32_t>(std::clamp(std::floor(box.lo[a] / edge), first, last + 1));
-        out.hi[a] = static_cast<std::int32_t>(std::clamp(std::floor(box.hi[a] / edge), first - 1, last));
+        out.lo[a] =
+            static_cast<std::int32_t>(std::clamp(std::floor(box.lo[a] / edge), first, last + 1));
+        out.hi[a] =
+            static_cast<std::int32_t>(std::clamp(std::floor(box.hi[a] / edge), first - 1, last));
     }
     return out;
 }
@@ -67,16 +71,15 @@ void BlockRange::voxels(std::uint64_t block, Vec3i& begin, Vec3i& end) const {
     }
 }
 
-TriangleSource::TriangleSource(const Geometry& geometry)
-    : geometry_(geometry), first_(1, 0) {
+TriangleSource::TriangleSource(const Geometry& geometry) : geometry_(geometry), first_(1, 0) {
     for (const Mesh& mesh : geometry.meshes) {
         first_.push_back(first_.back() + mesh.triangles.size());
         const Material& m = geometry.materials[mesh.material];
         const auto map = static_cast<std::size_t>(m.height_map);
         const bool moves = m.height_map >= 0 && map < geometry.textures.size() && !mesh.uvs.empty();
         // heights are computed in float: a rounding more than the largest of them
-        displacement_.push_back(
-            moves ? max_displacement(m, geometry.textures[map]) * (1.0 + 1e-6) : 0.0);
+        displacement_.push_back(moves ? max_displacement(m, geometry.textures[map]) * (1.0 + 1e-6)
+                                      : 0.0);
     }
 }
 
@@ -90,7 +93,8 @@ template <typename Visit>
 void Bins::visit_pairs(const Progress& progress, const Visit& visit) const {
     const Vec3d& voxel = fibers_.units().voxel_size;
     const auto block_number = [&](int x, int y, int z) {
-        return (static_cast<std::uint64_t>(x - range_.lo.x) * static_cast<std::uint64_t>(range_.size.y) +
+        return (static_cast<std::uint64_t>(x - range_.lo.x) *
+                    static_cast<std::uint64_t>(range_.size.y) +
                 static_cast<std::uint64_t>(y - range_.lo.y)) *
                    static_cast<std::uint64_t>(range_.size.z) +
                static_cast<std::uint64_t>(z - range_.lo.z);

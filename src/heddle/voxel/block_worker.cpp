@@ -9,8 +9,9 @@ namespace {
 VoxelGridFields fields_of(const Geometry& geometry) {
     VoxelGridFields fields;
     for (const CurveSet& set : geometry.curves) {
-        const bool slice = set.yarn >= 0 && geometry.yarns[static_cast<std::size_t>(set.yarn)].model ==
-                                                YarnModel::Slice;
+        const bool slice =
+            set.yarn >= 0 &&
+            geometry.yarns[static_cast<std::size_t>(set.yarn)].model == YarnModel::Slice;
         fields.albedo = fields.albedo || slice || !set.color.empty();
     }
     for (const Mesh& mesh : geometry.meshes) {
@@ -33,16 +34,22 @@ VoxelizeContext::VoxelizeContext(const Geometry& geometry_in,
                                  const Lattice& lattice,
                                  Vec3i voxel_lo,
                                  Vec3i voxel_hi)
-    : geometry(geometry_in), options(options_in), units(lattice),
-      fibers(geometry_in, units, options_in.seed), triangles(geometry_in),
-      surfaces(geometry_in, units, options_in.seed), range(voxel_lo, voxel_hi),
+    : geometry(geometry_in),
+      options(options_in),
+      units(lattice),
+      fibers(geometry_in, units, options_in.seed),
+      triangles(geometry_in),
+      surfaces(geometry_in, units, options_in.seed),
+      range(voxel_lo, voxel_hi),
       fit{.subvoxels = lattice.subvoxels,
           .max_lobes = options_in.max_lobes,
           .project_subvoxels = options_in.coverage == CoverageMode::Mask,
           .fields = fields_of(geometry_in)} {}
 
 BlockWorker::BlockWorker(const VoxelizeContext& context)
-    : context_(context), sums_(needs_maps(context.fit)), fibers_(context.fibers, context.options),
+    : context_(context),
+      sums_(needs_maps(context.fit)),
+      fibers_(context.fibers, context.options),
       triangles_(context.triangles, context.surfaces, context.units, context.options.fit) {}
 
 BlockCounts BlockWorker::run(std::uint64_t block,
@@ -66,8 +73,8 @@ BlockCounts BlockWorker::run(std::uint64_t block,
 }
 
 std::int64_t BlockWorker::byte_count(const FitOptions& fit) {
-    const std::size_t voxel = sizeof(std::uint16_t) + sizeof(VoxelSums) +
-                              (needs_maps(fit) ? sizeof(MapSums) : 0);
+    const std::size_t voxel =
+        sizeof(std::uint16_t) + sizeof(VoxelSums) + (needs_maps(fit) ? sizeof(MapSums) : 0);
     return static_cast<std::int64_t>(voxel * BlockSums::kVoxels + (std::size_t{1} << 18));
 }
 

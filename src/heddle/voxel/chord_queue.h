@@ -34,9 +34,13 @@ public:
         gather_thin({{start_[0].data(), start_[1].data(), start_[2].data()},
                      {dir_[0].data(), dir_[1].data(), dir_[2].data()},
                      {no_bend_.data(), no_bend_.data(), no_bend_.data()},
-                     length_.data(), before_.data(), after_.data(), radius_.data(),
+                     length_.data(),
+                     before_.data(),
+                     after_.data(),
+                     radius_.data(),
                      {anchor_[0].data(), anchor_[1].data(), anchor_[2].data()},
-                     color_.data(), count_},
+                     color_.data(),
+                     count_},
                     target);
         count_ = 0;
     }

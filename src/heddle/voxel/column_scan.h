@@ -12,9 +12,9 @@ namespace heddle {
 
 /// A straight round piece of fiber, flat at both ends, in units, relative to a voxel's corner.
 struct Cylinder {
-    Vec3f origin;  ///< of the axial coordinate
-    Vec3f dir;     ///< unit
-    float lo = 0;  ///< axial range
+    Vec3f origin; ///< of the axial coordinate
+    Vec3f dir;    ///< unit
+    float lo = 0; ///< axial range
     float hi = 0;
     float radius = 0;
 };
@@ -30,15 +30,24 @@ struct PatchDepths {
 /// The constants of one cylinder seen along one axis c of a voxel; a and b are the other two.
 struct ColumnView {
     float oa, ob, oc, da, db, dc;
-    float ea, eb;        ///< subvoxel edges
-    float depth;         ///< voxel edge along c
-    float r2s2;          ///< (radius sin)^2, sin of the angle between cylinder and axis
-    float inv_s2;        ///< 1 / sin^2
-    float lo, hi;        ///< axial range
+    float ea, eb; ///< subvoxel edges
+    float depth;  ///< voxel edge along c
+    float r2s2;   ///< (radius sin)^2, sin of the angle between cylinder and axis
+    float inv_s2; ///< 1 / sin^2
+    float lo, hi; ///< axial range
 
     HEDDLE_INLINE ColumnView(const Cylinder& k, const LatticeUnits& u, int a, int b, int c)
-        : oa(k.origin[a]), ob(k.origin[b]), oc(k.origin[c]), da(k.dir[a]), db(k.dir[b]),
-          dc(k.dir[c]), ea(u.edge[a]), eb(u.edge[b]), depth(u.voxel[c]), lo(k.lo), hi(k.hi) {
+        : oa(k.origin[a]),
+          ob(k.origin[b]),
+          oc(k.origin[c]),
+          da(k.dir[a]),
+          db(k.dir[b]),
+          dc(k.dir[c]),
+          ea(u.edge[a]),
+          eb(u.edge[b]),
+          depth(u.voxel[c]),
+          lo(k.lo),
+          hi(k.hi) {
         // Closer to the axis than 1/1000 the cylinder is taken as 1/1000 off it: a turn of less than
         // 1/100 subvoxel over a voxel's depth, and every quotient below stays finite.
         float s2 = da * da + db * db;
@@ -59,8 +68,7 @@ struct ColumnView {
 /// the axial range [lo, hi].
 /// @param a0, b0  the patch's first column
 /// @return        bit 4 (b - b0) + (a - a0)
-HEDDLE_INLINE std::uint32_t
-scan_patch(const ColumnView& v, int a0, int b0, PatchDepths* depths) {
+HEDDLE_INLINE std::uint32_t scan_patch(const ColumnView& v, int a0, int b0, PatchDepths* depths) {
     const float base_a = static_cast<float>(a0) + 0.5f;
     const float base_b = static_cast<float>(b0) + 0.5f;
     std::uint32_t hits = 0;
@@ -80,8 +88,7 @@ scan_patch(const ColumnView& v, int a0, int b0, PatchDepths* depths) {
         const float axial1 = axial + (leave - center) * v.dc;
         const float axial_min = axial0 < axial1 ? axial0 : axial1;
         const float axial_max = axial0 < axial1 ? axial1 : axial0;
-        const bool hit =
-            (disc > 0.0f) & (enter < leave) & (axial_max > v.lo) & (axial_min < v.hi);
+        const bool hit = (disc > 0.0f) & (enter < leave) & (axial_max > v.lo) & (axial_min < v.hi);
         hits |= hit ? 1u << l : 0u;
         if (depths != nullptr) {
             depths->enter[l] = enter;
@@ -102,9 +109,8 @@ HEDDLE_INLINE std::uint64_t place_patch(std::uint32_t hits, int a0, int b0, int 
         return mask;
     }
     const std::uint64_t h = hits;
-    const std::uint64_t spread = n == 4 ? h
-                                        : (h & 0xf) | (h & 0xf0) << 4 | (h & 0xf00) << 8 |
-                                              (h & 0xf000) << 12;
+    const std::uint64_t spread =
+        n == 4 ? h : (h & 0xf) | (h & 0xf0) << 4 | (h & 0xf00) << 8 | (h & 0xf000) << 12;
     return spread << (b0 * n + a0);
 }
 

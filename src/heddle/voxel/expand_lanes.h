@@ -19,9 +19,8 @@ inline void expand_sample(FiberTile& tile,
         const Real sin_angle = Real::load(table.sin_angle.data() + i);
         const Real c = cos_angle * Real(at.fiber.cos) - sin_angle * Real(at.fiber.sin);
         const Real s = sin_angle * Real(at.fiber.cos) + cos_angle * Real(at.fiber.sin);
-        const Real phase =
-            Real::load(table.cos_migration.data() + i) * Real(at.migration.cos) -
-            Real::load(table.sin_migration.data() + i) * Real(at.migration.sin);
+        const Real phase = Real::load(table.cos_migration.data() + i) * Real(at.migration.cos) -
+                           Real::load(table.sin_migration.data() + i) * Real(at.migration.sin);
         Real r = Real::load(table.radius.data() + i) *
                  (Real(section.mean) + Real(section.amplitude) * phase);
         if (tile.loops) r = r * Real::load(tile.loop[sample] + row + f);
@@ -93,7 +92,8 @@ void expand(FiberTile& tile,
             const FiberTable& table) {
     for (int j = 0; j < tile.chords + 3; ++j) {
         std::size_t row = 0;
-        for (const PlyPart& part : parts) { // a part's last lanes are overwritten by the next's first
+        for (const PlyPart& part :
+             parts) { // a part's last lanes are overwritten by the next's first
             expand_sample(tile, j, row, part, section, table);
             row += part.end - part.begin;
         }

@@ -44,7 +44,9 @@ Vec3d tangent_at(const Cubic& c, double t) {
     return normalize(c.at(1.0) - c.at(0.0), Vec3d{0.0, 0.0, 1.0});
 }
 
-Vec3d perpendicular(Vec3d t) { return to_double(any_perpendicular(to_float(t))); }
+Vec3d perpendicular(Vec3d t) {
+    return to_double(any_perpendicular(to_float(t)));
+}
 
 } // namespace
 
@@ -91,13 +93,17 @@ Cubic span_cubic(const CurveSet& set, std::size_t curve, std::size_t k) {
         return {{p1, 0.5 * (p2 - p0), p0 - 2.5 * p1 + 2.0 * p2 - 0.5 * p3,
                  0.5 * (p3 - p0) + 1.5 * (p1 - p2)}};
     }
-    return {{(1.0 / 6.0) * (p0 + 4.0 * p1 + p2), 0.5 * (p2 - p0),
-             0.5 * (p0 - 2.0 * p1 + p2), (1.0 / 6.0) * (p3 - p0) + 0.5 * (p1 - p2)}};
+    return {{(1.0 / 6.0) * (p0 + 4.0 * p1 + p2), 0.5 * (p2 - p0), 0.5 * (p0 - 2.0 * p1 + p2),
+             (1.0 / 6.0) * (p3 - p0) + 0.5 * (p1 - p2)}};
 }
 
 FiberSource::FiberSource(const Geometry& geometry, const LatticeUnits& units, std::uint64_t seed)
-    : geometry_(geometry), units_(units), seed_(seed), first_span_(1, 0),
-      curve_spans_(geometry.curves.size()), frames_(geometry.curves.size()) {
+    : geometry_(geometry),
+      units_(units),
+      seed_(seed),
+      first_span_(1, 0),
+      curve_spans_(geometry.curves.size()),
+      frames_(geometry.curves.size()) {
     for (std::uint32_t s = 0; s < geometry.curves.size(); ++s) {
         const CurveSet& set = geometry.curves[s];
         std::vector<std::uint64_t>& spans = curve_spans_[s];
@@ -180,8 +186,8 @@ FiberPiece FiberSource::whole_span(std::uint64_t span) const {
     const Cubic cubic = span_cubic(geometry_.curves[at.set], at.curve, at.k);
     const double parts = std::ceil(cubic.polygon_length() / (kPieceLength * units_.unit));
     return {.set = at.set,
-            .parts = static_cast<std::uint32_t>(
-                std::clamp(parts, 1.0, static_cast<double>(kMaxParts))),
+            .parts =
+                static_cast<std::uint32_t>(std::clamp(parts, 1.0, static_cast<double>(kMaxParts))),
             .curve = at.curve,
             .span = at.k,
             .cubic = cubic};
@@ -228,7 +234,8 @@ double radius_at(const CurveSet& set, const YarnType* yarn, const FiberPiece& pi
 double FiberSource::reach(const FiberPiece& piece) const {
     const CurveSet& set = geometry_.curves[piece.set];
     const YarnType* yarn = yarn_of(piece.set);
-    const double radius = std::max(radius_at(set, yarn, piece, false), radius_at(set, yarn, piece, true));
+    const double radius =
+        std::max(radius_at(set, yarn, piece, false), radius_at(set, yarn, piece, true));
     if (yarn == nullptr) return radius;
     return radius * static_cast<double>(yarn_reach(*yarn) / yarn->model_radius);
 }
@@ -248,7 +255,8 @@ YarnCourse FiberSource::course(const FiberPiece& piece) const {
     const std::vector<std::uint64_t>& spans = curve_spans_[piece.set];
     const std::size_t knot = spans[piece.curve] + piece.curve;
     const std::size_t count = spans[piece.curve + 1] - spans[piece.curve];
-    FiberPiece head = piece; // twist and hairs go by the radius at the yarn's head, the section by its own
+    FiberPiece head =
+        piece; // twist and hairs go by the radius at the yarn's head, the section by its own
     head.span = 0;
     head.part = 0;
     const double per_scene = model / std::max(radius_at(set, yarn, head, false), 1e-300);

@@ -12,9 +12,7 @@ namespace heddle {
 /// A cubic piece P(t) = c[0] + c[1] t + c[2] t^2 + c[3] t^3, t in [0, 1], scene units.
 struct Cubic {
     Vec3d c[4];
-    [[nodiscard]] Vec3d at(double t) const {
-        return c[0] + t * (c[1] + t * (c[2] + t * c[3]));
-    }
+    [[nodiscard]] Vec3d at(double t) const { return c[0] + t * (c[1] + t * (c[2] + t * c[3])); }
     [[nodiscard]] Vec3d derivative(double t) const {
         return c[1] + t * (2.0 * c[2] + (3.0 * t) * c[3]);
     }
@@ -31,23 +29,23 @@ struct Cubic {
 
 /// A piece of a span, short enough for single precision beside its anchor: what is binned to blocks.
 struct FiberPiece {
-    std::uint32_t set = 0;   ///< index into Geometry::curves
-    std::uint32_t part = 0;  ///< of `parts`
+    std::uint32_t set = 0;  ///< index into Geometry::curves
+    std::uint32_t part = 0; ///< of `parts`
     std::uint32_t parts = 1;
     std::uint64_t curve = 0;
-    std::uint64_t span = 0;  ///< of the curve
-    Cubic cubic;             ///< the piece itself
+    std::uint64_t span = 0; ///< of the curve
+    Cubic cubic;            ///< the piece itself
 };
 
 /// Where a yarn's twist stands: what a span needs beside its cubic. Lengths in model units.
 struct YarnCourse {
-    double start = 0.0;       ///< yarn length at the piece's start
-    double length = 0.0;      ///< of the piece
-    double total = 0.0;       ///< of the whole yarn
+    double start = 0.0;  ///< yarn length at the piece's start
+    double length = 0.0; ///< of the piece
+    double total = 0.0;  ///< of the whole yarn
     bool closed = false;
     double turns_per_length[3]{}; ///< plies, fibers, migration; whole turns over a closed yarn
     double closing_turns = 0.0;   ///< turn of the frame that closes a closed yarn, over its length
-    Vec3f normal0, normal1;   ///< cross-section frame at the piece's ends
+    Vec3f normal0, normal1;       ///< cross-section frame at the piece's ends
     float scale0 = 1.0f, scale1 = 1.0f; ///< units per model unit at the ends
 };
 
@@ -81,9 +79,9 @@ public:
 
 private:
     struct YarnFrames {
-        std::vector<double> length;  ///< at each knot of each curve, scene units: spans + 1 a curve
-        std::vector<Vec3f> normal;   ///< at each knot
-        std::vector<float> closing;  ///< per curve, turns
+        std::vector<double> length; ///< at each knot of each curve, scene units: spans + 1 a curve
+        std::vector<Vec3f> normal;  ///< at each knot
+        std::vector<float> closing; ///< per curve, turns
     };
     struct SpanPlace {
         std::uint32_t set;

@@ -21,8 +21,9 @@ namespace heddle {
 class LoopModel {
 public:
     explicit LoopModel(const YarnType& yarn)
-        : yarn_(yarn), section_(std::sqrt(yarn.ellipse_long * yarn.ellipse_short) *
-                                (yarn.migration ? yarn.migration_max : 1.0f)) {
+        : yarn_(yarn),
+          section_(std::sqrt(yarn.ellipse_long * yarn.ellipse_short) *
+                   (yarn.migration ? yarn.migration_max : 1.0f)) {
         const double period = static_cast<double>(yarn.fiber_pitch) /
                               std::max(static_cast<double>(yarn.migration_frequency), 1e-6);
         chance_ = static_cast<double>(yarn.loop_density) * period / yarn.fibers_per_ply;
@@ -140,7 +141,8 @@ private:
     }
     void shape(CounterRandom& random, FlyawayHair& hair) const {
         hair.r0 = std::max(0.0, normal(random, yarn_.hair_r0));
-        hair.re = std::max(0.1 * static_cast<double>(yarn_.hair_re.mean), normal(random, yarn_.hair_re));
+        hair.re =
+            std::max(0.1 * static_cast<double>(yarn_.hair_re.mean), normal(random, yarn_.hair_re));
         hair.p0 = 6.283185307179586 * static_cast<double>(random.uniform());
         hair.pe = normal(random, yarn_.hair_pe);
         hair.t0 = hair.re > 0.0 ? -std::min(kRoot, hair.r0 / hair.re) : 0.0;

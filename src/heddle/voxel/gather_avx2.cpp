@@ -8,5 +8,5 @@
 #define HEDDLE_ISA avx2
 #include <heddle/voxel/pool_lanes.h>
 // mark_lanes.h stands on pool_lanes.h
-#include <heddle/voxel/mark_lanes.h>
 #include <heddle/voxel/expand_lanes.h>
+#include <heddle/voxel/mark_lanes.h>

@@ -29,7 +29,7 @@ PlySection section_of(const YarnType& yarn) {
 /// Where the chords of a piece go.
 struct PieceTarget {
     GatherTarget block;
-    Vec3i anchor; ///< of the piece, relative to the block's lo
+    Vec3i anchor;                      ///< of the piece, relative to the block's lo
     std::uint32_t part = 0, parts = 1; ///< the piece, of its span
 };
 
@@ -54,9 +54,7 @@ struct LocalCubic {
     [[nodiscard]] Vec3f derivative(float t) const {
         return c[1] + t * (2.0f * c[2] + (3.0f * t) * c[3]);
     }
-    [[nodiscard]] Vec3f second_derivative(float t) const {
-        return 2.0f * c[2] + (6.0f * t) * c[3];
-    }
+    [[nodiscard]] Vec3f second_derivative(float t) const { return 2.0f * c[2] + (6.0f * t) * c[3]; }
     /// Largest |P''|: linear in t, so at one of the ends.
     [[nodiscard]] float bend() const {
         return std::max(length(second_derivative(0.0f)), length(second_derivative(1.0f)));
@@ -107,7 +105,7 @@ struct LoopMemo {
 struct FiberGatherer::State {
     const FiberSource& source;
     const VoxelizeOptions& options;
-    bool mask; ///< CoverageMode::Mask
+    bool mask;        ///< CoverageMode::Mask
     FiberTable table; ///< of the yarn below
     std::uint32_t table_set = ~0u;
     std::uint64_t table_curve = ~std::uint64_t{0};
@@ -119,24 +117,39 @@ struct FiberGatherer::State {
 
     [[nodiscard]] GatherTarget target_of(std::uint32_t set, BlockSums& block) const;
     void gather_run(const PieceTarget& target);
-    void gather_one(const Chord& chord, const PieceTarget& target, double begin, double width) const;
+    void
+    gather_one(const Chord& chord, const PieceTarget& target, double begin, double width) const;
     void gather_chords(std::size_t first, const PieceTarget& target, double t0, double t1);
-    void gather_one_by_one(std::size_t first, int j, float radius, const PieceTarget& target,
-                           double begin, double width);
+    void gather_one_by_one(std::size_t first,
+                           int j,
+                           float radius,
+                           const PieceTarget& target,
+                           double begin,
+                           double width);
     void gather_piece(const FiberPiece& piece, BlockSums& block);
     void gather_plain(const FiberPiece& piece, const LocalCubic& cubic, PieceTarget& target);
     void gather_yarn(const FiberPiece& piece, const LocalCubic& cubic, PieceTarget& target);
-    void gather_tiles(const YarnType& yarn, const PlySection& section, const PieceTarget& target,
-                      const YarnCourse& course, double t0, double t1);
-    void gather_hairs(const YarnType& yarn, const LocalCubic& cubic, const YarnCourse& course,
+    void gather_tiles(const YarnType& yarn,
+                      const PlySection& section,
+                      const PieceTarget& target,
+                      const YarnCourse& course,
+                      double t0,
+                      double t1);
+    void gather_hairs(const YarnType& yarn,
+                      const LocalCubic& cubic,
+                      const YarnCourse& course,
                       PieceTarget& target);
     void set_loops(const YarnType& yarn, std::size_t first, double s0, double s1);
 };
 
 GatherTarget FiberGatherer::State::target_of(std::uint32_t set, BlockSums& block) const {
     const LatticeUnits& u = source.units();
-    return {block, u, std::countr_zero(static_cast<unsigned>(u.n)), block.hi() - block.lo(),
-            {.material = source.geometry().curves[set].material, .last = options.fit == FitMode::Last}};
+    return {
+        block,
+        u,
+        std::countr_zero(static_cast<unsigned>(u.n)),
+        block.hi() - block.lo(),
+        {.material = source.geometry().curves[set].material, .last = options.fit == FitMode::Last}};
 }
 
 void FiberGatherer::State::gather_run(const PieceTarget& target) {
@@ -183,26 +196,29 @@ void FiberGatherer::State::gather_chords(std::size_t first,
         gather_thin({{tile.x[j + 1], tile.y[j + 1], tile.z[j + 1]},
                      {tile.dx[j], tile.dy[j], tile.dz[j]},
                      {tile.bx[j], tile.by[j], tile.bz[j]},
-                     tile.length[j], tile.before[j], tile.after[j], radius.data(),
+                     tile.length[j],
+                     tile.before[j],
+                     tile.after[j],
+                     radius.data(),
                      {anchor[0].data(), anchor[1].data(), anchor[2].data()},
-                     table.color.data() + first, tile.fibers},
+                     table.color.data() + first,
+                     tile.fibers},
                     target.block);
     }
 }
 
-void FiberGatherer::State::gather_one_by_one(std::size_t first,
-                                             int j,
-                                             float radius,
-                                             const PieceTarget& target,
-                                             double begin,
-                                             double width) {
+void FiberGatherer::State::gather_one_by_one(
+    std::size_t first, int j, float radius, const PieceTarget& target, double begin, double width) {
     PieceTarget own = target;
     for (int f = 0; f < tile.fibers; ++f) {
         if (!(tile.length[j][f] > 0.0f)) continue;
         own.block.paint.color = table.color[first + static_cast<std::size_t>(f)];
         gather_one({{tile.x[j + 1][f], tile.y[j + 1][f], tile.z[j + 1][f]},
                     {tile.dx[j][f], tile.dy[j][f], tile.dz[j][f]},
-                    tile.length[j][f], tile.before[j][f], tile.after[j][f], radius},
+                    tile.length[j][f],
+                    tile.before[j][f],
+                    tile.after[j][f],
+                    radius},
                    own, begin, width);
     }
 }
@@ -229,7 +245,8 @@ float joint_bend(const CurveSet& set, const FiberPiece& piece, bool end) {
     if (end ? piece.part + 1 < piece.parts : piece.part > 0) return 0.0f;
     if (!closed && (end ? piece.span + 1 == spans : piece.span == 0)) return 0.0f;
     const std::size_t other = end ? (piece.span + 1) % spans : (piece.span + spans - 1) % spans;
-    const Vec3d d = normalize(span_cubic(set, piece.curve, other).c[1]) - normalize(piece.cubic.c[1]);
+    const Vec3d d =
+        normalize(span_cubic(set, piece.curve, other).c[1]) - normalize(piece.cubic.c[1]);
     return static_cast<float>(0.5 * length(d));
 }
 
@@ -240,8 +257,9 @@ void FiberGatherer::State::gather_plain(const FiberPiece& piece,
                                         PieceTarget& target) {
     const CurveSet& set = source.geometry().curves[piece.set];
     const YarnCourse course = source.course(piece);
-    const int count = chord_count(static_cast<double>(cubic.bend()),
-                                  piece.cubic.polygon_length() / source.units().unit, source.units());
+    const int count =
+        chord_count(static_cast<double>(cubic.bend()),
+                    piece.cubic.polygon_length() / source.units().unit, source.units());
     if (!set.color.empty()) {
         const std::size_t skip = set.basis == Basis::Linear || set.is_closed(piece.curve) ? 0 : 1;
         target.block.paint.color = set.color[set.first[piece.curve] + piece.span + skip];
@@ -249,7 +267,9 @@ void FiberGatherer::State::gather_plain(const FiberPiece& piece,
     chords.clear();
     // moved outwards as in make_chords
     const float outwards = 1.0f / (24.0f * static_cast<float>(count) * static_cast<float>(count));
-    const auto sample = [&](float t) { return cubic.at(t) - outwards * cubic.second_derivative(t); };
+    const auto sample = [&](float t) {
+        return cubic.at(t) - outwards * cubic.second_derivative(t);
+    };
     Vec3f from = sample(0.0f);
     for (int j = 0; j < count; ++j) {
         const float t1 = static_cast<float>(j + 1) / static_cast<float>(count);
@@ -298,10 +318,11 @@ void FiberGatherer::State::gather_yarn(const FiberPiece& piece,
     const double scale = static_cast<double>(std::max(course.scale0, course.scale1));
     const double axis = static_cast<double>(std::max(section.short_axis, section.long_axis));
     const double all = turn0 + turn1 + (section.amplitude > 0.0f ? turn2 : 0.0);
-    const double bend = static_cast<double>(cubic.bend()) +
-                        scale * (static_cast<double>(section.offset) * turn0 * turn0 + axis * all * all);
-    const int count = chord_count(bend, piece.cubic.polygon_length() / source.units().unit,
-                                  source.units());
+    const double bend =
+        static_cast<double>(cubic.bend()) +
+        scale * (static_cast<double>(section.offset) * turn0 * turn0 + axis * all * all);
+    const int count =
+        chord_count(bend, piece.cubic.polygon_length() / source.units().unit, source.units());
     const std::size_t plies = table.first_of_ply.size() - 1;
     frames.resize(plies * FiberTile::kSamples);
     for (int j0 = 0; j0 < count; j0 += FiberTile::kChords) {
@@ -335,8 +356,8 @@ void FiberGatherer::State::gather_tiles(const YarnType& yarn,
         std::size_t end = first;
         std::size_t count = 0;
         while (end < table.size() && end - first < FiberTile::kFibers && count < parts.size()) {
-            const std::size_t stop = std::min<std::size_t>(table.first_of_ply[ply + 1],
-                                                           first + FiberTile::kFibers);
+            const std::size_t stop =
+                std::min<std::size_t>(table.first_of_ply[ply + 1], first + FiberTile::kFibers);
             parts[count++] = {end, stop, &frames[ply * FiberTile::kSamples]};
             end = stop;
             if (end == table.first_of_ply[ply + 1]) ++ply;
@@ -353,9 +374,12 @@ void FiberGatherer::State::gather_tiles(const YarnType& yarn,
     }
 }
 
-void FiberGatherer::State::set_loops(const YarnType& yarn, std::size_t first, double s0, double s1) {
-    const double frequency = static_cast<double>(yarn.migration_frequency) /
-                             static_cast<double>(yarn.fiber_pitch);
+void FiberGatherer::State::set_loops(const YarnType& yarn,
+                                     std::size_t first,
+                                     double s0,
+                                     double s1) {
+    const double frequency =
+        static_cast<double>(yarn.migration_frequency) / static_cast<double>(yarn.fiber_pitch);
     const LoopModel model(yarn);
     const int samples = tile.chords + 3;
     const auto fibers = static_cast<std::size_t>(tile.fibers);
@@ -391,40 +415,48 @@ void FiberGatherer::State::gather_hairs(const YarnType& yarn,
                                         PieceTarget& target) {
     const HairModel model(yarn, course.total, course.closed);
     for (std::size_t ply = 0; ply + 1 < table.first_of_ply.size(); ++ply) {
-        model.for_each(source.seed() + table_set, table_curve, ply, course.start,
-                       course.start + course.length, [&](const FlyawayHair& hair) {
-            const double dt = hair.t1 - hair.t0;
-            const double size = static_cast<double>(course.scale0) *
-                                (std::abs(hair.ze) + std::abs(hair.re) +
-                                 std::abs(hair.pe) * (hair.r0 + std::abs(hair.re)));
-            const int count = std::clamp(static_cast<int>(std::ceil(size * dt / 4.0)), 1, 64);
-            chords.clear();
-            Vec3f from;
-            for (int j = 0; j <= count; ++j) {
-                const double q = hair.t0 + dt * j / count;
-                const double s = hair.z0 + hair.ze * q;
-                const auto t = static_cast<float>((s - course.start) / course.length);
-                const YarnFrame yarn_at(cubic, course, t);
-                const PlyFrame at = yarn_at.of_ply(table, ply);
-                const SinCos turn = sincos_turns((hair.p0 + hair.pe * q) / 6.283185307179586);
-                const auto r = static_cast<float>(hair.r0 + hair.re * q);
-                const Vec3f to = at.center + (yarn.ply_offset + r * turn.cos) * at.u +
-                                 (r * turn.sin) * at.v;
-                const float len = length(to - from);
-                if (j > 0 && len > 0.0f) {
-                    chords.push_back({from, (to - from) * (1.0f / len), len, 0.0f, 0.0f,
-                                      table.fiber_radius * yarn_at.scale});
+        model.for_each(
+            source.seed() + table_set, table_curve, ply, course.start, course.start + course.length,
+            [&](const FlyawayHair& hair) {
+                const double dt = hair.t1 - hair.t0;
+                const double size = static_cast<double>(course.scale0) *
+                                    (std::abs(hair.ze) + std::abs(hair.re) +
+                                     std::abs(hair.pe) * (hair.r0 + std::abs(hair.re)));
+                const int count = std::clamp(static_cast<int>(std::ceil(size * dt / 4.0)), 1, 64);
+                chords.clear();
+                Vec3f from;
+                for (int j = 0; j <= count; ++j) {
+                    const double q = hair.t0 + dt * j / count;
+                    const double s = hair.z0 + hair.ze * q;
+                    const auto t = static_cast<float>((s - course.start) / course.length);
+                    const YarnFrame yarn_at(cubic, course, t);
+                    const PlyFrame at = yarn_at.of_ply(table, ply);
+                    const SinCos turn = sincos_turns((hair.p0 + hair.pe * q) / 6.283185307179586);
+                    const auto r = static_cast<float>(hair.r0 + hair.re * q);
+                    const Vec3f to =
+                        at.center + (yarn.ply_offset + r * turn.cos) * at.u + (r * turn.sin) * at.v;
+                    const float len = length(to - from);
+                    if (j > 0 && len > 0.0f) {
+                        chords.push_back({from, (to - from) * (1.0f / len), len, 0.0f, 0.0f,
+                                          table.fiber_radius * yarn_at.scale});
+                    }
+                    from = to;
                 }
-                from = to;
-            }
-            gather_run(target);
-        });
+                gather_run(target);
+            });
     }
 }
 
 FiberGatherer::FiberGatherer(const FiberSource& source, const VoxelizeOptions& options)
-    : state_(new State{.source = source, .options = options,
-                       .mask = options.coverage == CoverageMode::Mask, .table = {}, .tile = {}, .frames = {}, .loops = {}, .chords = {}, .queue = {}}) {}
+    : state_(new State{.source = source,
+                       .options = options,
+                       .mask = options.coverage == CoverageMode::Mask,
+                       .table = {},
+                       .tile = {},
+                       .frames = {},
+                       .loops = {},
+                       .chords = {},
+                       .queue = {}}) {}
 
 FiberGatherer::~FiberGatherer() = default;
 
@@ -437,8 +469,8 @@ void FiberGatherer::gather(std::span<const PieceId> pieces,
     std::size_t done = 0;
     for (const PieceId id : pieces) {
         if (done++ % 64 == 0) progress.check();
-        const FiberPiece piece =
-            FiberSource::part_of(state.source.whole_span(id >> 16), static_cast<std::uint32_t>(id & 0xffff));
+        const FiberPiece piece = FiberSource::part_of(state.source.whole_span(id >> 16),
+                                                      static_cast<std::uint32_t>(id & 0xffff));
         if (piece.set != set) state.queue.flush(state.target_of(set, block));
         set = piece.set;
         state.gather_piece(piece, block);

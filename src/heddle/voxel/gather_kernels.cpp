@@ -7,8 +7,8 @@
 #define HEDDLE_ISA portable
 #include <heddle/voxel/pool_lanes.h>
 // mark_lanes.h stands on pool_lanes.h
-#include <heddle/voxel/mark_lanes.h>
 #include <heddle/voxel/expand_lanes.h>
+#include <heddle/voxel/mark_lanes.h>
 
 namespace heddle {
 

@@ -17,7 +17,7 @@ struct ChordArrays {
     const float* length;   ///< > 0; else no chord
     const float* before;   ///< as in Chord
     const float* after;
-    const float* radius;          ///< at most kThickRadius
+    const float* radius;           ///< at most kThickRadius
     const std::int32_t* anchor[3]; ///< relative to the block's lo
     const std::uint32_t* color;
     int count = 0;

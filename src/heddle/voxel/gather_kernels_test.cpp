@@ -12,9 +12,13 @@ namespace heddle {
 namespace {
 
 #if HEDDLE_WITH_AVX2
-bool has_avx2() { return __builtin_cpu_supports("avx2") != 0; }
+bool has_avx2() {
+    return __builtin_cpu_supports("avx2") != 0;
+}
 #else
-bool has_avx2() { return false; }
+bool has_avx2() {
+    return false;
+}
 #endif
 
 /// Random chords in and around a block.
@@ -52,9 +56,13 @@ struct RandomChords {
         return {{reals[0].data(), reals[1].data(), reals[2].data()},
                 {reals[3].data(), reals[4].data(), reals[5].data()},
                 {reals[6].data(), reals[7].data(), reals[8].data()},
-                length.data(), before.data(), after.data(), radius.data(),
+                length.data(),
+                before.data(),
+                after.data(),
+                radius.data(),
                 {anchor[0].data(), anchor[1].data(), anchor[2].data()},
-                color.data(), kCount};
+                color.data(),
+                kCount};
     }
 };
 
@@ -107,11 +115,14 @@ TEST(GatherKernels, PlainCodeAndAvx2ExpandTheSameFibers) {
     std::vector<PlyFrame> frames;
     for (int j = 0; j < 7; ++j) {
         const float t = 0.3f * static_cast<float>(j);
-        frames.push_back({{t, t * t, 1.0f}, {1.0f, 0.1f * t, 0.0f}, {0.0f, 1.0f, 0.2f * t},
-                          sincos_turns(0.03 * j), sincos_turns(0.11 * j)});
+        frames.push_back({{t, t * t, 1.0f},
+                          {1.0f, 0.1f * t, 0.0f},
+                          {0.0f, 1.0f, 0.2f * t},
+                          sincos_turns(0.03 * j),
+                          sincos_turns(0.11 * j)});
     }
-    const std::vector<PlyPart> parts{{0, 37, frames.data()}, {37, 74, frames.data()},
-                                     {74, 111, frames.data()}};
+    const std::vector<PlyPart> parts{
+        {0, 37, frames.data()}, {37, 74, frames.data()}, {74, 111, frames.data()}};
     const auto expand = [&](auto function) {
         auto tile = std::make_unique<FiberTile>();
         std::memset(static_cast<void*>(tile.get()), 0, sizeof(FiberTile));

@@ -23,13 +23,15 @@ inline void gather_samples(const Chord& chord,
                            const SpanSamples& samples) {
     const LatticeUnits& u = target.units;
     const bool dense = samples.count == 0;
-    const double first = dense ? 0.0 : std::ceil(samples.begin * static_cast<double>(samples.count) - 0.5);
+    const double first =
+        dense ? 0.0 : std::ceil(samples.begin * static_cast<double>(samples.count) - 0.5);
     const double last = dense ? std::ceil(2.0 * static_cast<double>(chord.length))
                               : std::ceil(samples.end * static_cast<double>(samples.count) - 0.5);
     const double width = samples.end - samples.begin;
     const double all = static_cast<double>(dense ? 1 : samples.count);
-    const auto spacing = static_cast<float>(
-        dense ? static_cast<double>(chord.length) / last : static_cast<double>(chord.length) / (width * all));
+    const auto spacing =
+        static_cast<float>(dense ? static_cast<double>(chord.length) / last
+                                 : static_cast<double>(chord.length) / (width * all));
     const Vec3f& d = chord.dir;
     const float moment[6] = {d.x * d.x, d.y * d.y, d.z * d.z, d.x * d.y, d.x * d.z, d.y * d.z};
     const int low = (1 << target.shift) - 1;

@@ -66,27 +66,55 @@ struct Real {
     friend Mask operator!=(Real a, Real b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_NEQ_UQ)}; }
 };
 
-inline Int min(Int a, Int b) { return _mm256_min_epi32(a.v, b.v); }
-inline Int max(Int a, Int b) { return _mm256_max_epi32(a.v, b.v); }
+inline Int min(Int a, Int b) {
+    return _mm256_min_epi32(a.v, b.v);
+}
+inline Int max(Int a, Int b) {
+    return _mm256_max_epi32(a.v, b.v);
+}
 /// a < b ? a : b
-inline Real min(Real a, Real b) { return _mm256_min_ps(a.v, b.v); }
+inline Real min(Real a, Real b) {
+    return _mm256_min_ps(a.v, b.v);
+}
 /// a > b ? a : b
-inline Real max(Real a, Real b) { return _mm256_max_ps(a.v, b.v); }
-inline Real sqrt(Real a) { return _mm256_sqrt_ps(a.v); }
-inline Real floor(Real a) { return _mm256_floor_ps(a.v); }
-inline Real ceil(Real a) { return _mm256_ceil_ps(a.v); }
-inline Real abs(Real a) { return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a.v); }
-inline Real select(Mask m, Real a, Real b) { return _mm256_blendv_ps(b.v, a.v, m.v); }
+inline Real max(Real a, Real b) {
+    return _mm256_max_ps(a.v, b.v);
+}
+inline Real sqrt(Real a) {
+    return _mm256_sqrt_ps(a.v);
+}
+inline Real floor(Real a) {
+    return _mm256_floor_ps(a.v);
+}
+inline Real ceil(Real a) {
+    return _mm256_ceil_ps(a.v);
+}
+inline Real abs(Real a) {
+    return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a.v);
+}
+inline Real select(Mask m, Real a, Real b) {
+    return _mm256_blendv_ps(b.v, a.v, m.v);
+}
 inline Int select(Mask m, Int a, Int b) {
     return _mm256_blendv_epi8(b.v, a.v, _mm256_castps_si256(m.v));
 }
-inline Real to_real(Int a) { return _mm256_cvtepi32_ps(a.v); }
+inline Real to_real(Int a) {
+    return _mm256_cvtepi32_ps(a.v);
+}
 /// Towards 0; anything outside of int gives anything.
-inline Int to_int(Real a) { return _mm256_cvttps_epi32(a.v); }
+inline Int to_int(Real a) {
+    return _mm256_cvttps_epi32(a.v);
+}
 /// Lane l of the result is lane `from`[l] & 7 of `a`.
-inline Real pick(Real a, Int from) { return _mm256_permutevar8x32_ps(a.v, from.v); }
-inline Int pick(Int a, Int from) { return _mm256_permutevar8x32_epi32(a.v, from.v); }
-inline Mask pick(Mask a, Int from) { return {_mm256_permutevar8x32_ps(a.v, from.v)}; }
+inline Real pick(Real a, Int from) {
+    return _mm256_permutevar8x32_ps(a.v, from.v);
+}
+inline Int pick(Int a, Int from) {
+    return _mm256_permutevar8x32_epi32(a.v, from.v);
+}
+inline Mask pick(Mask a, Int from) {
+    return {_mm256_permutevar8x32_ps(a.v, from.v)};
+}
 /// The lanes of a mask's set bits, in order.
 inline Int set_lanes(std::uint32_t mask) {
     return _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(kSetLanes[mask])));

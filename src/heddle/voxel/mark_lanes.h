@@ -7,16 +7,16 @@ namespace heddle::HEDDLE_ISA {
 /// columns, `minor` the last one. What the test needs is linear in the column's indices (i, j) along
 /// them.
 struct LaneView {
-    Mask swapped;                   ///< major is the later of the two other axes
-    Real first, last;               ///< columns along major
-    Real strip, strip_i;            ///< lower edge of the body at column i, in column indices j
-    Real width;                     ///< of the body along minor, in columns
+    Mask swapped;                    ///< major is the later of the two other axes
+    Real first, last;                ///< columns along major
+    Real strip, strip_i;             ///< lower edge of the body at column i, in column indices j
+    Real width;                      ///< of the body along minor, in columns
     Real across, across_i, across_j; ///< distance from the axis x sin, units
     Real axial, axial_i, axial_j;    ///< axial coordinate nearest to the centre line, units
-    Real r2s2, inv_s2;              ///< (radius sin)^2, 1 / sin^2
-    Real o_depth, d_depth;          ///< depth = o_depth + axial d_depth, units
-    Real axial_enter, inv_d_depth;  ///< the end of the axial range at which depth is least
-    Real depth_range;               ///< depth between the ends, where the flat ends cut
+    Real r2s2, inv_s2;               ///< (radius sin)^2, 1 / sin^2
+    Real o_depth, d_depth;           ///< depth = o_depth + axial d_depth, units
+    Real axial_enter, inv_d_depth;   ///< the end of the axial range at which depth is least
+    Real depth_range;                ///< depth between the ends, where the flat ends cut
 };
 
 template <int kDepth>
@@ -66,8 +66,7 @@ inline LaneView view_along(const ChordLanes& k, const LatticeUnits& u) {
     v.axial_j = em * dm * v.inv_s2;
     v.o_depth = k.start[kDepth];
     v.d_depth = k.dir[kDepth];
-    v.inv_d_depth =
-        Real(1.0f) / select(Real(1e-6f) < abs(v.d_depth), v.d_depth, Real(1e-6f));
+    v.inv_d_depth = Real(1.0f) / select(Real(1e-6f) < abs(v.d_depth), v.d_depth, Real(1e-6f));
     v.axial_enter = select(Real(0.0f) < v.inv_d_depth, lo, hi);
     v.depth_range = abs(v.inv_d_depth) * (hi - lo);
     return v;
@@ -123,8 +122,7 @@ inline void set_columns(const LaneBlock& b, Mask hits, Int packed, Int run) {
 }
 
 /// Names a direction in voxels that chords meet beside their centrelines.
-inline void
-graze(const LaneBlock& b, const ChordLanes& k, std::uint32_t hits, Int cell, Int lane) {
+inline void graze(const LaneBlock& b, const ChordLanes& k, std::uint32_t hits, Int cell, Int lane) {
     alignas(32) std::int32_t cells[kLanes];
     alignas(32) std::int32_t lanes[kLanes];
     cell.store(cells);
@@ -137,7 +135,9 @@ graze(const LaneBlock& b, const ChordLanes& k, std::uint32_t hits, Int cell, Int
 
 /// Tests the candidates and sets what they meet.
 template <int kDepth>
-inline void mark_candidates(const LaneBlock& b, const ChordLanes& k, const LaneView& v,
+inline void mark_candidates(const LaneBlock& b,
+                            const ChordLanes& k,
+                            const LaneView& v,
                             const Candidates& list) {
     constexpr int kA = kDepth == 0 ? 1 : 0;
     constexpr int kB = kDepth == 2 ? 1 : 2;
@@ -150,20 +150,19 @@ inline void mark_candidates(const LaneBlock& b, const ChordLanes& k, const LaneV
         const Int lane = Int::load(list.lane + at);
         const Real i = Real::load(list.i + at);
         const Real j = Real::load(list.j + at);
-        const Real across = pick(v.across, lane) + pick(v.across_i, lane) * i +
-                            pick(v.across_j, lane) * j;
+        const Real across =
+            pick(v.across, lane) + pick(v.across_i, lane) * i + pick(v.across_j, lane) * j;
         const Real axial =
             pick(v.axial, lane) + pick(v.axial_i, lane) * i + pick(v.axial_j, lane) * j;
         const Real disc = pick(v.r2s2, lane) - across * across;
         const Real center = pick(v.o_depth, lane) + axial * pick(v.d_depth, lane);
         const Real half = sqrt(max(disc, Real(0.0f))) * pick(v.inv_s2, lane);
-        const Real end0 =
-            center + (pick(v.axial_enter, lane) - axial) * pick(v.inv_d_depth, lane);
+        const Real end0 = center + (pick(v.axial_enter, lane) - axial) * pick(v.inv_d_depth, lane);
         const Real end1 = end0 + pick(v.depth_range, lane);
         const Real enter = max(center - half, end0);
         const Real leave = min(center + half, end1);
-        const Mask hit = (Real(0.0f) < disc) & (enter < leave) &
-                         (Int(list.count - at) > Int::iota());
+        const Mask hit =
+            (Real(0.0f) < disc) & (enter < leave) & (Int(list.count - at) > Int::iota());
         if (hit.bits() == 0) continue;
 
         const Int column_i = to_int(i);
@@ -220,7 +219,8 @@ inline void mark_columns(const LaneBlock& b, const ChordLanes& k) {
         mark_candidates<kDepth>(b, k, v, list);
         list.count = 0;
     };
-    int tries = 1; // columns along minor that can lie in the strip; alike in all batches, so foreseen
+    int tries =
+        1; // columns along minor that can lie in the strip; alike in all batches, so foreseen
     while ((k.active & (Real(static_cast<float>(tries)) < v.width)).bits() != 0) ++tries;
     Real i = v.first;
     for (Mask row = k.active & (i <= v.last); row.bits() != 0; row = row & (i <= v.last)) {
@@ -238,7 +238,8 @@ inline void mark_columns(const LaneBlock& b, const ChordLanes& k) {
 }
 
 /// Chords whose round body comes into the block.
-inline Mask meets_block(const LaneBlock& b, const ChordLanes& k, const ChordArrays& chords, int at) {
+inline Mask
+meets_block(const LaneBlock& b, const ChordLanes& k, const ChordArrays& chords, int at) {
     constexpr float kMargin = 0.01f; // of a voxel: rounding by the block's place decides nothing
     const LatticeUnits& u = b.target.units;
     Mask active = Real(0.0f) < k.length;

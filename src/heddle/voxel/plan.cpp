@@ -215,9 +215,8 @@ BlockCounts measure_sample(VoxelizePlan& plan,
             counts[s] = worker.run(chosen[s], lists.of(s), progress, out);
         });
     });
-    const double scale = surfaces
-                             ? static_cast<double>(blocks) / static_cast<double>(chosen.size())
-                             : static_cast<double>(bins.total_entries()) / entries;
+    const double scale = surfaces ? static_cast<double>(blocks) / static_cast<double>(chosen.size())
+                                  : static_cast<double>(bins.total_entries()) / entries;
     const auto scaled = [&](std::int64_t BlockCounts::*field) {
         std::int64_t sum = 0;
         for (const BlockCounts& c : counts) sum += c.*field;
@@ -255,9 +254,9 @@ std::int64_t geometry_bytes(const Geometry& geometry) {
 void plan_memory(VoxelizePlan& plan, const VoxelizeContext& context, const Bins& bins) {
     std::int64_t limit = context.options.memory_bytes;
     if (limit == 0) limit = std::max<std::int64_t>(available_bytes() / 2, std::int64_t{1} << 30);
-    const std::int64_t fixed =
-        kProgramBytes + geometry_bytes(context.geometry) + context.fibers.byte_count() +
-        SurfaceSource::predict_bytes(context.geometry);
+    const std::int64_t fixed = kProgramBytes + geometry_bytes(context.geometry) +
+                               context.fibers.byte_count() +
+                               SurfaceSource::predict_bytes(context.geometry);
     const std::int64_t counts = bins.byte_count();
     const std::int64_t workers = thread_count() * BlockWorker::byte_count(context.fit);
     const VoxelGridFields& fields = plan.fields;
@@ -291,9 +290,8 @@ void plan_memory(VoxelizePlan& plan, const VoxelizeContext& context, const Bins&
 
 } // namespace
 
-VoxelizePlan plan_voxelize(const Geometry& geometry,
-                           const VoxelizeOptions& options,
-                           const Progress& progress) {
+VoxelizePlan
+plan_voxelize(const Geometry& geometry, const VoxelizeOptions& options, const Progress& progress) {
     check_options(options);
     check_geometry(geometry);
     const Bounds whole = bounds_of(geometry);

@@ -16,7 +16,8 @@ struct ChordLanes {
     Int anchor;    ///< voxel word, relative to the block's lo
     Mask active;   ///< may meet the block
     Int passed[4]; ///< the first voxel words that the centreline passes
-    alignas(32) float moment[kLanes][kLanes]; ///< per chord: xx yy zz xy xz yz of its direction, 1, 0
+    alignas(
+        32) float moment[kLanes][kLanes]; ///< per chord: xx yy zz xy xz yz of its direction, 1, 0
     const std::uint32_t* color;
 };
 
@@ -41,9 +42,7 @@ struct LaneBlock {
     static Int cell(Int word) {
         return (word & Int(31)) | ((word >> 5) & Int(31 << 5)) | ((word >> 10) & Int(31 << 10));
     }
-    [[nodiscard]] VoxelSums& voxel(std::uint32_t cell) const {
-        return target.block.voxel_at(cell);
-    }
+    [[nodiscard]] VoxelSums& voxel(std::uint32_t cell) const { return target.block.voxel_at(cell); }
 };
 
 /// Pools the direction of chord `lane`, `weight` in units^2.
@@ -67,9 +66,7 @@ inline void set_moments(ChordLanes& k, const Real (&bend)[3]) {
     const Real bend2 = bend[0] * bend[0] + bend[1] * bend[1] + bend[2] * bend[2];
     const Real inv = Real(1.0f) / (Real(1.0f) + bend2 * Real(1.0f / 12.0f));
     const Real part = inv * Real(1.0f / 12.0f);
-    const auto moment = [&](int a, int b) {
-        return d[a] * d[b] * inv + bend[a] * bend[b] * part;
-    };
+    const auto moment = [&](int a, int b) { return d[a] * d[b] * inv + bend[a] * bend[b] * part; };
     Real rows[kLanes] = {moment(0, 0), moment(1, 1), moment(2, 2), moment(0, 1),
                          moment(0, 2), moment(1, 2), Real(1.0f),   Real(0.0f)};
     transpose(rows);

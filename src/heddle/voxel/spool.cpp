@@ -16,11 +16,9 @@ void fetch(const TempFile& file, std::int64_t& offset, std::vector<T>& into, std
 
 void SpooledGrid::store(std::size_t i, const VoxelBlock& block) {
     const auto size = [](const auto& v) { return static_cast<std::uint32_t>(v.size()); };
-    const auto put = [&](const auto& v) {
-        return file_.append(v.data(), v.size() * sizeof(v[0]));
-    };
-    places_[i] = {put(block.leaves), size(block.leaves),  size(block.coverage),
-                  size(block.lobes), size(block.maps),    size(block.tangents)};
+    const auto put = [&](const auto& v) { return file_.append(v.data(), v.size() * sizeof(v[0])); };
+    places_[i] = {put(block.leaves), size(block.leaves), size(block.coverage),
+                  size(block.lobes), size(block.maps),   size(block.tangents)};
     put(block.coverage);
     put(block.lobe_count);
     put(block.lobes);

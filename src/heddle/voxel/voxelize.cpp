@@ -86,7 +86,8 @@ std::unique_ptr<VoxelSource> voxelize(const Geometry& geometry,
     WorkerPool pool(context);
     progress.begin("voxelize", "primitives", static_cast<std::int64_t>(bins.total_entries()));
     const std::uint64_t batch_entries =
-        bins.total_entries() / static_cast<std::uint64_t>(std::max<std::int64_t>(1, plan.batches)) + 1;
+        bins.total_entries() / static_cast<std::uint64_t>(std::max<std::int64_t>(1, plan.batches)) +
+        1;
     for (std::size_t begin = 0; begin < blocks.size();) {
         std::size_t end = begin;
         for (std::uint64_t sum = 0; end < blocks.size() && sum < batch_entries; ++end) {
@@ -97,7 +98,8 @@ std::unique_ptr<VoxelSource> voxelize(const Geometry& geometry,
             progress.check();
             pool.with([&](BlockWorker& worker) {
                 VoxelBlock out;
-                const BlockCounts counts = worker.run(blocks[begin + i], lists.of(i), progress, out);
+                const BlockCounts counts =
+                    worker.run(blocks[begin + i], lists.of(i), progress, out);
                 shrink(out);
                 keeper.keep(begin + i, out, counts);
             });
