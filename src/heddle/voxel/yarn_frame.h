@@ -1,0 +1,62 @@
+#pragma once
+
+#include <heddle/base/trig.h>
+#include <heddle/voxel/fiber_source.h>
+#include <heddle/voxel/fiber_tile.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace heddle {
+
+/// A piece's cubic in units, relative to the corner of its anchor voxel.
+struct LocalCubic {
+    Vec3i anchor; ///< voxel index
+    Vec3f c[4];
+
+    LocalCubic(const Cubic& cubic, const LatticeUnits& u) {
+        for (int a = 0; a < 3; ++a) {
+            anchor[a] = static_cast<std::int32_t>(std::floor(cubic.c[0][a] / u.voxel_size[a]));
+            const double corner = anchor[a] * u.voxel_size[a];
+            c[0][a] = static_cast<float>((cubic.c[0][a] - corner) / u.unit);
+            for (int i = 1; i < 4; ++i) c[i][a] = static_cast<float>(cubic.c[i][a] / u.unit);
+        }
+    }
+    [[nodiscard]] Vec3f at(float t) const { return c[0] + t * (c[1] + t * (c[2] + t * c[3])); }
+    [[nodiscard]] Vec3f derivative(float t) const {
+        return c[1] + t * (2.0f * c[2] + (3.0f * t) * c[3]);
+    }
+    [[nodiscard]] Vec3f second_derivative(float t) const { return 2.0f * c[2] + (6.0f * t) * c[3]; }
+    /// Largest |P''|: linear in t, so at one of the ends.
+    [[nodiscard]] float bend() const {
+        return std::max(length(second_derivative(0.0f)), length(second_derivative(1.0f)));
+    }
+};
+
+/// A yarn's cross-section at one place, units; what its plies' frames are made of.
+struct YarnFrame {
+    Vec3f center, normal, binormal;
+    SinCos ply, fiber, migration; ///< turned by so much since the yarn's start
+    float scale;                  ///< units per model unit
+
+    YarnFrame(const LocalCubic& cubic, const YarnCourse& course, float t) {
+        const Vec3f tangent = normalize(cubic.derivative(t));
+        const Vec3f lerped = course.normal0 * (1.0f - t) + course.normal1 * t;
+        normal = normalize(lerped - dot(lerped, tangent) * tangent, any_perpendicular(tangent));
+        binormal = cross(tangent, normal);
+        center = cubic.at(t);
+        scale = course.scale0 * (1.0f - t) + course.scale1 * t;
+        const double s = course.start + course.length * static_cast<double>(t);
+        const double closing = course.total > 0.0 ? course.closing_turns * s / course.total : 0.0;
+        ply = sincos_turns(course.turns_per_length[0] * s + closing);
+        fiber = sincos_turns(course.turns_per_length[1] * s);
+        migration = sincos_turns(course.turns_per_length[2] * s);
+    }
+    [[nodiscard]] PlyFrame of_ply(const FiberTable& table, std::size_t i) const {
+        const float c = (table.ply_cos[i] * ply.cos - table.ply_sin[i] * ply.sin) * scale;
+        const float s = (table.ply_sin[i] * ply.cos + table.ply_cos[i] * ply.sin) * scale;
+        return {center, c * normal + s * binormal, c * binormal - s * normal, fiber, migration};
+    }
+};
+
+} // namespace heddle
