@@ -49,7 +49,7 @@ clip_to_voxel(Vec3f origin, Vec3f inv_dir, Vec3f voxel, float grow, AxialRange r
     return range;
 }
 
-/// Sets the subvoxels whose centres lie in the cylinder, from a patch of columns along z.
+/// Sets the subvoxels whose centres lie in the cylinder, from a patch of columns along z: a run in each.
 HEDDLE_INLINE int mark_subvoxels(VoxelSums& sums,
                                  const LatticeUnits& u,
                                  const ColumnView& v,
@@ -57,23 +57,38 @@ HEDDLE_INLINE int mark_subvoxels(VoxelSums& sums,
                                  int b0,
                                  std::uint32_t hits,
                                  const PatchDepths& depths) {
+    const float step = u.edge.z * v.dc; // axial coordinate from one subvoxel to the next
+    const bool level = step < 1e-6f && step > -1e-6f;
+    const float inv_step = 1.0f / (level ? 1.0f : step);
+    const auto most = static_cast<float>(u.n);
     int marked = 0;
     for (; hits != 0; hits &= hits - 1) {
         const int lane = std::countr_zero(hits);
         const int x = a0 + (lane & 3);
         const int y = b0 + (lane >> 2);
         if (x >= u.n || y >= u.n) continue;
-        const ColumnRange z = columns_in(depths.enter[lane], depths.leave[lane], u.inv_edge.z, u.n);
         const float qa = (static_cast<float>(x) + 0.5f) * v.ea - v.oa;
         const float qb = (static_cast<float>(y) + 0.5f) * v.eb - v.ob;
-        for (int k = z.first; k <= z.last; ++k) {
-            const float qc = (static_cast<float>(k) + 0.5f) * u.edge.z - v.oc;
-            const float axial = qa * v.da + qb * v.db + qc * v.dc;
-            if (axial < v.lo || axial > v.hi) continue;
-            const int bit = (x * u.n + y) * u.n + k;
-            sums.sub[static_cast<std::size_t>(bit >> 6)] |= std::uint64_t{1} << (bit & 63);
-            ++marked;
-        }
+        const float axial =
+            qa * v.da + qb * v.db + (0.5f * u.edge.z - v.oc) * v.dc; // of subvoxel 0
+        if (level && (axial < v.lo || axial > v.hi)) continue;
+        const float end0 = level ? -1.0f : (v.lo - axial) * inv_step;
+        const float end1 = level ? most : (v.hi - axial) * inv_step;
+        const float least =
+            (end0 < end1 ? end0 : end1) > -1.0f ? (end0 < end1 ? end0 : end1) : -1.0f;
+        const float largest =
+            (end0 < end1 ? end1 : end0) < most ? (end0 < end1 ? end1 : end0) : most;
+        if (!(least < most) || !(largest > -1.0f)) continue;
+        const ColumnRange z = columns_in(depths.enter[lane], depths.leave[lane], u.inv_edge.z, u.n);
+        const int flat0 = -floor_to_int(-least);
+        const int flat1 = floor_to_int(largest);
+        const int first = z.first > flat0 ? z.first : flat0;
+        const int count = (z.last < flat1 ? z.last : flat1) - first + 1;
+        if (count <= 0) continue;
+        const int bit = (x * u.n + y) * u.n + first;
+        sums.sub[static_cast<std::size_t>(bit >> 6)] |= ((std::uint64_t{1} << count) - 1)
+                                                        << (bit & 63);
+        marked += count;
     }
     return marked;
 }
