@@ -58,5 +58,25 @@ TEST(PlainOpenVdb, DensityAndTangentStandWhereTheVoxelsAre) {
     }
 }
 
+TEST(PlainOpenVdb, VoxelsOfMicrometresKeepTheirSize) {
+    for (const Vec3d size : {Vec3d{2e-6, 2e-6, 2e-6}, Vec3d{2e-6, 1e-6, 4e-6}}) {
+        VoxelGrid grid = testing::make_helix(4.0, 1.0, 1);
+        grid.about.lattice.voxel_size = size;
+        const auto path = std::filesystem::temp_directory_path() / "heddle_plain_micro.vdb";
+        Progress progress;
+        write_vdb(grid, path.string(), progress);
+        openvdb::initialize();
+        openvdb::io::File file(path.string());
+        file.open(/*delayLoad=*/false);
+        const auto density = openvdb::gridPtrCast<openvdb::FloatGrid>(file.readGrid("density"));
+        file.close();
+        std::filesystem::remove(path);
+        const openvdb::Vec3d at = density->indexToWorld(openvdb::Coord(10, 20, 30));
+        EXPECT_DOUBLE_EQ(at.x(), 10.5 * size.x);
+        EXPECT_DOUBLE_EQ(at.y(), 20.5 * size.y);
+        EXPECT_DOUBLE_EQ(density->worldToIndex(at).z(), 30.0);
+    }
+}
+
 } // namespace
 } // namespace heddle

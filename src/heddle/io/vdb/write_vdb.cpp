@@ -12,23 +12,30 @@
 
 #include <cerrno>
 #include <fstream>
+#include <sstream>
 
 namespace heddle {
 namespace {
 
 constexpr std::size_t kBufferBytes = std::size_t{4} << 20;
 
+/// Scale and half a voxel's move: an index is the voxel's centre. Read from its own bytes, as a file's
+/// is: the constructors take voxels below 1e-5 scene units for flat, and patterns in metres have such.
 openvdb::math::Transform::Ptr make_transform(const Lattice& lattice) {
     using namespace openvdb::math;
-    const Vec3d h = lattice.voxel_size;
-    const openvdb::Vec3d half(0.5 * h.x, 0.5 * h.y, 0.5 * h.z); // an index is the voxel's centre
-    MapBase::Ptr map;
-    if (h.x == h.y && h.x == h.z) {
-        map = std::make_shared<UniformScaleTranslateMap>(h.x, half);
-    } else {
-        map = std::make_shared<ScaleTranslateMap>(openvdb::Vec3d(h.x, h.y, h.z), half);
+    const openvdb::Vec3d h(lattice.voxel_size.x, lattice.voxel_size.y, lattice.voxel_size.z);
+    const openvdb::Vec3d inverse = 1.0 / h;
+    const bool cubic = h.x() == h.y() && h.x() == h.z();
+    std::stringstream bytes;
+    openvdb::io::setCurrentVersion(bytes);
+    openvdb::writeString(bytes, cubic ? UniformScaleTranslateMap::mapType()
+                                      : ScaleTranslateMap::mapType());
+    for (const openvdb::Vec3d& v : {0.5 * h, h, h, inverse, inverse * inverse, 0.5 * inverse}) {
+        v.write(bytes);
     }
-    return std::make_shared<Transform>(map);
+    auto transform = std::make_shared<Transform>();
+    transform->read(bytes);
+    return transform;
 }
 
 openvdb::Vec3i to_vdb(Vec3i v) {
