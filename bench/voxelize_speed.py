@@ -3,8 +3,8 @@
 
 usage: bench/voxelize_speed.py [--quick] [--yarn silk] [--runs 1]
 Nine runs (512, 1024, 2048 voxels x 50, 150, 450 fibers a yarn) on all cores, one on one thread, one with
-flyaways, one with --memory 1500M, and the bare cost of evaluating the fibers (heddle_expand_bench, built
-with HEDDLE_BENCH=ON). Fits seconds = a steps + b touched subvoxels + c voxels to the nine.
+flyaways, one with --memory 1500M. Fits seconds = a steps + b touched subvoxels + c voxels to the nine.
+What evaluating the fibers costs by itself: heddle_expand_bench (HEDDLE_BENCH=ON).
 Needs build/release/bin/heddle (or HEDDLE=...) and ../shared/data (or HEDDLE_TEST_DATA=...).
 """
 import argparse
