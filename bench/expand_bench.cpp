@@ -26,9 +26,8 @@ void expand_span(benchmark::State& state) {
                           sincos_turns(0.05 * j),
                           sincos_turns(0.07 * j)});
     }
-    const std::vector<PlyPart> parts{{0, 50, frames.data()},
-                                     {50, 100, frames.data()},
-                                     {100, 150, frames.data()}};
+    const std::vector<PlyPart> parts{
+        {0, 50, frames.data()}, {50, 100, frames.data()}, {100, 150, frames.data()}};
     const auto tile = std::make_unique<FiberTile>();
     tile->fibers = 150;
     tile->chords = 4;

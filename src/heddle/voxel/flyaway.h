@@ -50,13 +50,13 @@ public:
     }
 
     /// What multiplies a fiber's distance from its ply's axis: 1, or in a loop's period
-    /// 1 + (r1 / r - 1) cos(pi w), w the distance from the outermost point in periods.
-    /// @param phase   migration phase, turns; whole numbers are outermost points
-    [[nodiscard]] float factor(std::uint64_t id, double phase, float radius) const {
-        const double period = period_of(phase);
-        const double w = phase - period;
+    /// 1 + (ratio - 1) cos(pi w), w the distance from the outermost point in periods.
+    /// @param ratio  of the phase's period
+    /// @param phase  migration phase, turns; whole numbers are outermost points
+    [[nodiscard]] static float factor(double ratio, double phase) {
+        const double w = phase - period_of(phase);
         const double bump = 1.0 - 4.0 * w * w; // cos(pi w) to 6 %, and 0 at the period's ends
-        return static_cast<float>(1.0 + (ratio(id, period, radius) - 1.0) * bump);
+        return static_cast<float>(1.0 + (ratio - 1.0) * bump);
     }
     [[nodiscard]] static double period_of(double phase) {
         const auto whole = static_cast<double>(static_cast<long long>(phase + 0.5));

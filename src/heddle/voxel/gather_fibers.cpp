@@ -47,10 +47,10 @@ int chord_count(double bend, double length, const LatticeUnits& u) {
 
 } // namespace
 
-/// The period of a fiber's migration that was last looked at, and whether it has a loop.
+/// The period of a fiber's migration that was last looked at, and how far out its loop goes.
 struct LoopMemo {
     double period = 1e300;
-    bool any = false;
+    double ratio = 1.0;
 };
 
 struct FiberGatherer::State {
@@ -280,7 +280,8 @@ void FiberGatherer::State::gather_yarn(const FiberPiece& piece,
         tile.chords = std::min(FiberTile::kChords, count - j0);
         for (int j = 0; j < tile.chords + 3; ++j) {
             const float t = static_cast<float>(j0 + j - 1) / static_cast<float>(count);
-            const YarnFrame frame(cubic, course, t);
+            YarnFrame frame(cubic, course, t);
+            frame.twist(course);
             tile.radius[j] = table.fiber_radius * frame.scale;
             for (std::size_t ply = 0; ply < plies; ++ply) {
                 frames[ply * FiberTile::kSamples + static_cast<std::size_t>(j)] =
@@ -341,12 +342,16 @@ void FiberGatherer::State::set_loops(const YarnType& yarn,
         const double p0 = LoopModel::period_of(s0 * frequency + turns);
         const double p1 = LoopModel::period_of(s1 * frequency + turns);
         LoopMemo& memo = loops[i];
-        if (memo.period == p0 && p0 == p1 && !memo.any) continue;
-        const std::uint64_t id = LoopModel::id(source.seed() + table_set, table_curve, i);
+        const auto ratio = [&](double period) {
+            if (memo.period != period) {
+                const std::uint64_t id = LoopModel::id(source.seed() + table_set, table_curve, i);
+                memo = {period, model.ratio(id, period, table.radius[i])};
+            }
+            return memo.ratio;
+        };
         bool any = false;
         for (double p = std::min(p0, p1); p <= std::max(p0, p1); p += 1.0) {
-            memo = {p, model.ratio(id, p, table.radius[i]) > 1.0};
-            any = any || memo.any;
+            any = any || ratio(p) > 1.0;
         }
         if (!any) continue;
         if (!tile.loops) {
@@ -354,8 +359,8 @@ void FiberGatherer::State::set_loops(const YarnType& yarn,
             tile.loops = true;
         }
         for (int j = 0; j < samples; ++j) {
-            const double s = s0 + (s1 - s0) * j / (samples - 1);
-            tile.loop[j][f] = model.factor(id, s * frequency + turns, table.radius[i]);
+            const double phase = (s0 + (s1 - s0) * j / (samples - 1)) * frequency + turns;
+            tile.loop[j][f] = LoopModel::factor(ratio(LoopModel::period_of(phase)), phase);
         }
     }
 }

@@ -36,8 +36,10 @@ struct LocalCubic {
 /// A yarn's cross-section at one place, units; what its plies' frames are made of.
 struct YarnFrame {
     Vec3f center, normal, binormal;
-    SinCos ply, fiber, migration; ///< turned by so much since the yarn's start
-    float scale;                  ///< units per model unit
+    SinCos ply;                  ///< turned by so much since the yarn's start
+    SinCos fiber{}, migration{}; ///< the same, once twist() was called
+    double s;                    ///< yarn length since its start, model units
+    float scale;                 ///< units per model unit
 
     YarnFrame(const LocalCubic& cubic, const YarnCourse& course, float t) {
         const Vec3f tangent = normalize(cubic.derivative(t));
@@ -46,16 +48,19 @@ struct YarnFrame {
         binormal = cross(tangent, normal);
         center = cubic.at(t);
         scale = course.scale0 * (1.0f - t) + course.scale1 * t;
-        const double s = course.start + course.length * static_cast<double>(t);
+        s = course.start + course.length * static_cast<double>(t);
         const double closing = course.total > 0.0 ? course.closing_turns * s / course.total : 0.0;
         ply = sincos_turns(course.turns_per_length[0] * s + closing);
+    }
+    /// Sets what fibers need beside their ply's frame.
+    void twist(const YarnCourse& course) {
         fiber = sincos_turns(course.turns_per_length[1] * s);
         migration = sincos_turns(course.turns_per_length[2] * s);
     }
     [[nodiscard]] PlyFrame of_ply(const FiberTable& table, std::size_t i) const {
         const float c = (table.ply_cos[i] * ply.cos - table.ply_sin[i] * ply.sin) * scale;
-        const float s = (table.ply_sin[i] * ply.cos + table.ply_cos[i] * ply.sin) * scale;
-        return {center, c * normal + s * binormal, c * binormal - s * normal, fiber, migration};
+        const float sn = (table.ply_sin[i] * ply.cos + table.ply_cos[i] * ply.sin) * scale;
+        return {center, c * normal + sn * binormal, c * binormal - sn * normal, fiber, migration};
     }
 };
 
