@@ -250,10 +250,26 @@ std::int64_t geometry_bytes(const Geometry& geometry) {
     return sum;
 }
 
+std::int64_t memory_limit(const VoxelizeOptions& options) {
+    if (options.memory_bytes != 0) return options.memory_bytes;
+    return std::max<std::int64_t>(available_bytes() / 2, std::int64_t{1} << 30);
+}
+
+/// @throws Error  OutOfMemory when the counters of the blocks alone, empty ones too, are too many
+void check_blocks(const BlockRange& range, const VoxelizeOptions& options) {
+    const std::int64_t limit = memory_limit(options);
+    const auto counters = static_cast<std::int64_t>(range.count() * sizeof(std::uint32_t));
+    if (kProgramBytes + counters <= limit) return;
+    throw Error(ErrorCode::OutOfMemory,
+                str("voxelize: ", limit >> 20, " MiB of memory is not enough for a box of ",
+                    range.count(), " blocks"),
+                str("give at least ", ((kProgramBytes + counters) >> 20) + 1,
+                    "M, use larger voxels, or only a part (bounds)"));
+}
+
 /// Splits the work into batches and decides whether finished blocks wait in a file.
 void plan_memory(VoxelizePlan& plan, const VoxelizeContext& context, const Bins& bins) {
-    std::int64_t limit = context.options.memory_bytes;
-    if (limit == 0) limit = std::max<std::int64_t>(available_bytes() / 2, std::int64_t{1} << 30);
+    const std::int64_t limit = memory_limit(context.options);
     const std::int64_t fixed = kProgramBytes + geometry_bytes(context.geometry) +
                                context.fibers.byte_count() +
                                SurfaceSource::predict_bytes(context.geometry);
@@ -309,6 +325,7 @@ plan_voxelize(const Geometry& geometry, const VoxelizeOptions& options, const Pr
         }
     }
     choose_range(plan, geometry.name);
+    check_blocks(BlockRange(plan.voxel_lo, plan.voxel_hi), options);
     const VoxelizeContext context(geometry, options, plan.lattice, plan.voxel_lo, plan.voxel_hi);
     const Bins bins(context.fibers, context.triangles, context.range, progress);
     plan.fields = context.fit.fields;

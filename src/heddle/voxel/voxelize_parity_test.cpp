@@ -144,5 +144,27 @@ TEST(VoxelizeParity, ARegionGivesTheVoxelsOfTheWhole) {
     for (const auto& [key, content] : part) EXPECT_EQ(whole.count(key), 1u);
 }
 
+TEST(VoxelizePlan, ABoxOfTooManyBlocksIsRefusedBeforeItsCountersAreTaken) {
+    Geometry geometry;
+    geometry.name = "diagonal";
+    geometry.materials.resize(1);
+    CurveSet set;
+    set.basis = Basis::Linear;
+    set.points = {{0.0f, 0.0f, 0.0f}, {1e5f, 1e5f, 0.0f}};
+    set.first = {0, 2};
+    set.default_radius = 0.01f;
+    geometry.curves.push_back(set);
+    VoxelizeOptions options;
+    options.voxel_size = {0.2, 0.2, 0.2};
+    options.memory_bytes = std::int64_t{512} << 20; // the counters alone take 980 MB
+    try {
+        static_cast<void>(plan_voxelize(geometry, options));
+        FAIL() << "planned";
+    } catch (const Error& e) {
+        EXPECT_EQ(e.code(), ErrorCode::OutOfMemory);
+        EXPECT_NE(std::string(e.what()).find("blocks"), std::string::npos) << e.what();
+    }
+}
+
 } // namespace
 } // namespace heddle
