@@ -15,6 +15,12 @@ struct SinCos {
     return i - (static_cast<float>(i) > x ? 1 : 0);
 }
 
+/// a / b towards minus infinity, b > 0.
+template <typename T>
+[[nodiscard]] HEDDLE_HD constexpr T floor_div(T a, T b) {
+    return a >= 0 ? a / b : -((-a + b - 1) / b);
+}
+
 /// Sine and cosine of a whole turn's fraction: sin(2 pi turns), cos(2 pi turns).
 ///
 /// Only + - * and conversions, so every backend gives the same bits.  |turns| < 2^40.

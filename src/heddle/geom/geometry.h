@@ -22,6 +22,11 @@ struct Geometry {
     std::vector<YarnType> yarns;
     std::vector<std::string>
         notes; ///< what the reader assumed, one sentence each, for the user to see
+
+    /// The yarn that the set's curves are centrelines of, or null: each curve is one fiber.
+    [[nodiscard]] const YarnType* yarn_of(const CurveSet& set) const {
+        return set.yarn < 0 ? nullptr : &yarns[static_cast<std::size_t>(set.yarn)];
+    }
 };
 
 } // namespace heddle

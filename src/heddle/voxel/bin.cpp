@@ -1,6 +1,7 @@
 #include <heddle/voxel/bin.h>
 
 #include <heddle/base/parallel.h>
+#include <heddle/base/trig.h>
 #include <heddle/voxel/surface_sample.h>
 #include <heddle/voxel/triangle_scan.h>
 
@@ -12,10 +13,6 @@ namespace heddle {
 namespace {
 
 constexpr std::size_t kGrain = 1024;
-
-int floor_div(int a, int b) {
-    return a >= 0 ? a / b : -((-a + b - 1) / b);
-}
 
 /// Box of block indices, inclusive.
 struct BlockBox {

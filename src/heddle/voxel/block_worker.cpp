@@ -9,9 +9,8 @@ namespace {
 VoxelGridFields fields_of(const Geometry& geometry) {
     VoxelGridFields fields;
     for (const CurveSet& set : geometry.curves) {
-        const bool slice =
-            set.yarn >= 0 &&
-            geometry.yarns[static_cast<std::size_t>(set.yarn)].model == YarnModel::Slice;
+        const YarnType* yarn = geometry.yarn_of(set);
+        const bool slice = yarn != nullptr && yarn->model == YarnModel::Slice;
         fields.albedo = fields.albedo || slice || !set.color.empty();
     }
     for (const Mesh& mesh : geometry.meshes) {

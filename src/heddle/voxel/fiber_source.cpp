@@ -204,8 +204,7 @@ FiberPiece FiberSource::part_of(const FiberPiece& span, std::uint32_t part) {
 }
 
 const YarnType* FiberSource::yarn_of(std::uint32_t set) const {
-    const std::int32_t yarn = geometry_.curves[set].yarn;
-    return yarn < 0 ? nullptr : &geometry_.yarns[static_cast<std::size_t>(yarn)];
+    return geometry_.yarn_of(geometry_.curves[set]);
 }
 
 std::int64_t FiberSource::fiber_count(std::uint32_t set) const {

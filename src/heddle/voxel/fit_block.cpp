@@ -1,5 +1,6 @@
 #include <heddle/voxel/fit_block.h>
 
+#include <heddle/base/trig.h>
 #include <heddle/sggx/moments.h>
 #include <heddle/sggx/pack.h>
 
@@ -144,14 +145,6 @@ HEDDLE_INLINE std::int64_t append_voxel(BlockFit& fit, const VoxelSums& voxel) {
     return hits;
 }
 
-} // namespace
-
-namespace {
-
-int floor_to_leaf(int v) {
-    return v >= 0 ? v / kLeaf : -((-v + kLeaf - 1) / kLeaf);
-}
-
 /// True when a row of a leaf, all of it inside the block, has no voxel: most rows of a surface.
 HEDDLE_INLINE bool is_empty_row(const std::uint16_t* slots) {
     static_assert(BlockSums::kNone == 0xffff);
@@ -193,7 +186,7 @@ HEDDLE_CLONES BlockCounts fit_block(const BlockSums& sums,
     BlockCounts counts;
     BlockFit fit{sums, options, out};
     const Vec3i lo = sums.lo();
-    const Vec3i first{floor_to_leaf(lo.x), floor_to_leaf(lo.y), floor_to_leaf(lo.z)};
+    const Vec3i first{floor_div(lo.x, kLeaf), floor_div(lo.y, kLeaf), floor_div(lo.z, kLeaf)};
     for (int cell = 0; cell < kAcross * kAcross * kAcross; ++cell) {
         const Vec3i at{cell / (kAcross * kAcross), cell / kAcross % kAcross, cell % kAcross};
         VoxelLeaf leaf;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <heddle/base/random.h>
+#include <heddle/base/trig.h>
 #include <heddle/geom/yarn.h>
 
 #include <algorithm>
@@ -122,10 +123,6 @@ public:
 
 private:
     static constexpr double kRoot = 2.0;
-
-    static std::int64_t floor_div(std::int64_t a, std::int64_t b) {
-        return a >= 0 ? a / b : -((-a + b - 1) / b);
-    }
 
     [[nodiscard]] double normal(CounterRandom& random, MeanSd v) const {
         return static_cast<double>(v.mean) + static_cast<double>(v.sd) * deviate(random.next());

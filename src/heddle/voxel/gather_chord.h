@@ -3,6 +3,7 @@
 #include <heddle/voxel/accumulator.h>
 #include <heddle/voxel/column_scan.h>
 
+#include <array>
 #include <bit>
 
 namespace heddle {
@@ -22,6 +23,15 @@ struct FiberPaint {
     std::uint32_t material = 0;
     std::uint32_t color = 0xffffff; ///< linear RGB, goes to the map sums where there are some
     bool last = false;              ///< FitMode::Last: replaces the direction instead of pooling
+};
+
+/// Where chords go: what all of a run share.
+struct GatherTarget {
+    BlockSums& block;
+    const LatticeUnits& units;
+    int shift;  ///< log2 of the subvoxels per axis
+    Vec3i size; ///< of the block
+    FiberPaint paint;
 };
 
 /// Thicker than this, a fiber's directions are spread over the subvoxels it fills; thinner, along its
@@ -74,14 +84,12 @@ HEDDLE_INLINE int mark_subvoxels(VoxelSums& sums,
         if (level && (axial < v.lo || axial > v.hi)) continue;
         const float end0 = level ? -1.0f : (v.lo - axial) * inv_step;
         const float end1 = level ? most : (v.hi - axial) * inv_step;
-        const float least =
-            (end0 < end1 ? end0 : end1) > -1.0f ? (end0 < end1 ? end0 : end1) : -1.0f;
-        const float largest =
-            (end0 < end1 ? end1 : end0) < most ? (end0 < end1 ? end1 : end0) : most;
-        if (!(least < most) || !(largest > -1.0f)) continue;
+        const float near = end0 < end1 ? end0 : end1;
+        const float far = end0 < end1 ? end1 : end0;
+        if (!(near < most) || !(far > -1.0f)) continue;
+        const int flat0 = -floor_to_int(near > -1.0f ? -near : 1.0f);
+        const int flat1 = floor_to_int(far < most ? far : most);
         const ColumnRange z = columns_in(depths.enter[lane], depths.leave[lane], u.inv_edge.z, u.n);
-        const int flat0 = -floor_to_int(-least);
-        const int flat1 = floor_to_int(largest);
         const int first = z.first > flat0 ? z.first : flat0;
         const int count = (z.last < flat1 ? z.last : flat1) - first + 1;
         if (count <= 0) continue;
@@ -119,14 +127,15 @@ HEDDLE_INLINE void pool_moment(BlockSums& block,
     }
 }
 
-/// Adds a chord to one voxel. `k.origin` is relative to the voxel's corner.
-HEDDLE_INLINE void gather_voxel(BlockSums& block,
-                                const LatticeUnits& u,
-                                const Cylinder& k,
-                                float length,
-                                Vec3f inv_dir,
-                                Vec3i at,
-                                const FiberPaint& paint) {
+/// Second moment of one direction: xx yy zz xy xz yz.
+HEDDLE_INLINE std::array<float, 6> moment_of(Vec3f d) {
+    return {d.x * d.x, d.y * d.y, d.z * d.z, d.x * d.y, d.x * d.z, d.y * d.z};
+}
+
+/// Adds a thick chord to one voxel. `k.origin` is relative to the voxel's corner.
+HEDDLE_INLINE void
+gather_voxel(const GatherTarget& t, const Cylinder& k, float length, Vec3f inv_dir, Vec3i at) {
+    const LatticeUnits& u = t.units;
     const AxialRange reach = clip_to_voxel(k.origin, inv_dir, u.voxel, k.radius, {k.lo, k.hi});
     if (!(reach.enter < reach.leave)) return;
     ColumnRange range[3];
@@ -143,39 +152,28 @@ HEDDLE_INLINE void gather_voxel(BlockSums& block,
     int marked = 0;
     const auto mark = [&](const ColumnView& v, int a0, int b0, std::uint32_t hits,
                           const PatchDepths& depths) __attribute__((always_inline)) {
-        if (sums == nullptr) sums = &block.voxel(at.x, at.y, at.z);
+        if (sums == nullptr) sums = &t.block.voxel(at.x, at.y, at.z);
         marked += mark_subvoxels(*sums, u, v, a0, b0, hits, depths);
     };
     const std::uint64_t mz = scan_columns<true>(k, u, 2, range, mark);
     const AxialRange in = clip_to_voxel(k.origin, inv_dir, u.voxel, 0.0f, {0.0f, length});
     const bool passes = in.enter < in.leave;
     if ((mx | my | mz) == 0 && !passes) return;
-    VoxelSums& voxel = sums != nullptr ? *sums : block.voxel(at.x, at.y, at.z);
+    VoxelSums& voxel = sums != nullptr ? *sums : t.block.voxel(at.x, at.y, at.z);
     voxel.column[0] |= mx;
     voxel.column[1] |= my;
     voxel.column[2] |= mz;
-    // directed area: the projection 2 r L of the piece inside; a thick fiber's, 2 r L = (pi r^2 L)
-    // x 2 / (pi r), goes with the volume of the subvoxels it fills
-    float weight = 0.0f;
-    if (k.radius <= kThickRadius) {
-        weight = passes ? 2.0f * k.radius * (in.leave - in.enter) : 0.0f;
-    } else {
-        const float volume = u.edge.x * u.edge.y * u.edge.z;
-        weight = 0.63661977f * volume / k.radius * static_cast<float>(marked);
-    }
-    const Vec3f& d = k.dir;
-    const float moment[6] = {d.x * d.x, d.y * d.y, d.z * d.z, d.x * d.y, d.x * d.z, d.y * d.z};
-    pool_moment(block, voxel, moment, weight, paint);
+    // directed area, the projection 2 r L = (pi r^2 L) x 2 / (pi r), goes with the volume of the
+    // subvoxels that it fills
+    const float volume = u.edge.x * u.edge.y * u.edge.z;
+    const float weight = 0.63661977f * volume / k.radius * static_cast<float>(marked);
+    pool_moment(t.block, voxel, moment_of(k.dir).data(), weight, t.paint);
 }
 
-/// Adds a chord to the voxels of `block` that its round body meets.
+/// Adds a chord thicker than kThickRadius to the voxels of the block that its round body meets.
 /// @param anchor  the voxel that the chord is relative to, relative to the block's lo
-HEDDLE_INLINE void gather_chord(BlockSums& block,
-                                const LatticeUnits& u,
-                                const Chord& chord,
-                                Vec3i anchor,
-                                Vec3i block_size,
-                                const FiberPaint& paint) {
+HEDDLE_INLINE void gather_chord(const GatherTarget& t, const Chord& chord, Vec3i anchor) {
+    const LatticeUnits& u = t.units;
     Vec3f inv_dir;
     int lo[3]{};
     int hi[3]{};
@@ -190,7 +188,7 @@ HEDDLE_INLINE void gather_chord(BlockSums& block,
         lo[a] = floor_to_int(least) + anchor[a];
         hi[a] = floor_to_int(most) + anchor[a];
         lo[a] = lo[a] > 0 ? lo[a] : 0;
-        hi[a] = hi[a] < block_size[a] ? hi[a] : block_size[a] - 1;
+        hi[a] = hi[a] < t.size[a] ? hi[a] : t.size[a] - 1;
     }
     for (int x = lo[0]; x <= hi[0]; ++x) {
         for (int y = lo[1]; y <= hi[1]; ++y) {
@@ -200,7 +198,7 @@ HEDDLE_INLINE void gather_chord(BlockSums& block,
                                    static_cast<float>(z - anchor.z) * u.voxel.z};
                 const Cylinder k{chord.start - corner, chord.dir, -chord.before,
                                  chord.length + chord.after, chord.radius};
-                gather_voxel(block, u, k, chord.length, inv_dir, {x, y, z}, paint);
+                gather_voxel(t, k, chord.length, inv_dir, {x, y, z});
             }
         }
     }

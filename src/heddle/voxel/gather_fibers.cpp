@@ -35,7 +35,7 @@ struct PieceTarget {
 };
 
 HEDDLE_CLONES void gather_thick(const Chord& chord, Vec3i anchor, const GatherTarget& t) {
-    gather_chord(t.block, t.units, chord, anchor, t.size, t.paint);
+    gather_chord(t, chord, anchor);
 }
 
 /// Chords that keep within kChordSagitta of a curve with |P''| <= bend, and within a voxel's edge.
@@ -190,7 +190,6 @@ namespace {
 
 /// |difference of directions| / 2 between a linear span's end and its neighbour; 0 at a free end.
 float joint_bend(const CurveSet& set, const FiberPiece& piece, bool end) {
-    if (set.basis != Basis::Linear) return 0.0f;
     const std::size_t spans = set.span_count(piece.curve);
     const bool closed = set.is_closed(piece.curve);
     if (end ? piece.part + 1 < piece.parts : piece.part > 0) return 0.0f;

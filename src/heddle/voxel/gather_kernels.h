@@ -23,15 +23,6 @@ struct ChordArrays {
     int count = 0;
 };
 
-/// Where chords go: what all of a run share.
-struct GatherTarget {
-    BlockSums& block;
-    const LatticeUnits& units;
-    int shift;  ///< log2 of the subvoxels per axis
-    Vec3i size; ///< of the block
-    FiberPaint paint;
-};
-
 /// Adds thin chords to the voxels that they meet: eight chords at once, column by column along each.
 /// The same bits with and without AVX2, which is used where the machine has it.
 void gather_thin(const ChordArrays& chords, const GatherTarget& target);

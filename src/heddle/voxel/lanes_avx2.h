@@ -63,7 +63,6 @@ struct Real {
     friend Real operator/(Real a, Real b) { return _mm256_div_ps(a.v, b.v); }
     friend Mask operator<(Real a, Real b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)}; }
     friend Mask operator<=(Real a, Real b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_LE_OQ)}; }
-    friend Mask operator!=(Real a, Real b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_NEQ_UQ)}; }
 };
 
 inline Int min(Int a, Int b) {

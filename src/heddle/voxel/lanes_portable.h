@@ -111,9 +111,6 @@ struct Real {
     friend Mask operator<=(Real a, Real b) {
         return detail::each<Mask>([&](int l) { return a.v[l] <= b.v[l] ? -1 : 0; });
     }
-    friend Mask operator!=(Real a, Real b) {
-        return detail::each<Mask>([&](int l) { return a.v[l] != b.v[l] ? -1 : 0; });
-    }
 };
 
 inline Int min(Int a, Int b) {

@@ -219,8 +219,8 @@ inline void mark_columns(const LaneBlock& b, const ChordLanes& k) {
         mark_candidates<kDepth>(b, k, v, list);
         list.count = 0;
     };
-    int tries =
-        1; // columns along minor that can lie in the strip; alike in all batches, so foreseen
+    // columns along minor that can lie in the strip: alike in all batches, so no branch is guessed wrong
+    int tries = 1;
     while ((k.active & (Real(static_cast<float>(tries)) < v.width)).bits() != 0) ++tries;
     Real i = v.first;
     for (Mask row = k.active & (i <= v.last); row.bits() != 0; row = row & (i <= v.last)) {

@@ -50,8 +50,7 @@ Bounds bounds_of(const Geometry& geometry) {
         return a;
     };
     for (const CurveSet& set : geometry.curves) {
-        const YarnType* yarn =
-            set.yarn < 0 ? nullptr : &geometry.yarns[static_cast<std::size_t>(set.yarn)];
+        const YarnType* yarn = geometry.yarn_of(set);
         const float factor = yarn == nullptr ? 1.0f : yarn_reach(*yarn) / yarn->model_radius;
         const auto reach = static_cast<double>(factor * largest_radius(set, yarn));
         Bounds hulls = reduce_chunks(
@@ -132,8 +131,7 @@ void check_geometry(const Geometry& geometry) {
             "merge some, or voxelize parts of it");
     }
     for (const CurveSet& set : geometry.curves) {
-        const YarnType* yarn =
-            set.yarn < 0 ? nullptr : &geometry.yarns[static_cast<std::size_t>(set.yarn)];
+        const YarnType* yarn = geometry.yarn_of(set);
         const bool given = (yarn != nullptr && yarn->radius > 0.0f) || !set.radius.empty() ||
                            set.default_radius > 0.0f;
         if (!given) bad(str("'", geometry.name, "' names no radius"), "give --yarn-radius");
@@ -296,11 +294,10 @@ void plan_memory(VoxelizePlan& plan, const VoxelizeContext& context, const Bins&
     plan.batches = entries == 0 ? 1 : (entries + lists - 1) / lists;
     plan.peak_bytes = peak(kept, std::min(entries, lists));
     if (plan.peak_bytes > limit && context.options.memory_bytes != 0) {
-        throw Error(
-            ErrorCode::OutOfMemory,
-            str("voxelize: ", limit / 1048576, " MiB of memory is not enough for about ",
-                plan.voxels, " voxels"),
-            str("give at least ", plan.peak_bytes / 1048576 + 1, "M, or use larger voxels"));
+        throw Error(ErrorCode::OutOfMemory,
+                    str("voxelize: ", limit >> 20, " MiB of memory is not enough for about ",
+                        plan.voxels, " voxels"),
+                    str("give at least ", (plan.peak_bytes >> 20) + 1, "M, or use larger voxels"));
     }
 }
 
