@@ -13,7 +13,7 @@
 #include <filesystem>
 #include <string>
 
-// heddle_io_vdb_bench MILLION_VOXELS [OUT.vdb]: seconds and bytes of writing and reading back
+// heddle_vdb_bench MILLION_VOXELS [OUT.vdb]: seconds and bytes of writing and reading back
 // voxels like those of a cloth: a sheet of leaves, 35 % of each active, fiber directions that
 // wander.
 

@@ -16,9 +16,12 @@ namespace {
 
 // What another program sees: OpenVDB and nothing of Heddle's reader.
 
-TEST(PlainOpenVdb, DensityAndTangentStandWhereTheVoxelsAre) {
-    VoxelGrid grid = testing::make_helix(12.0, 2.0, 1);
-    grid.about.lattice.voxel_size = {0.5, 0.25, 2.0};
+struct PlainGrids {
+    openvdb::FloatGrid::Ptr density;
+    openvdb::Vec3SGrid::Ptr tangent;
+};
+
+PlainGrids write_and_read(const VoxelGrid& grid) {
     const auto path = std::filesystem::temp_directory_path() / "heddle_plain_openvdb.vdb";
     Progress progress;
     write_vdb(grid, path.string(), progress);
@@ -26,10 +29,18 @@ TEST(PlainOpenVdb, DensityAndTangentStandWhereTheVoxelsAre) {
     openvdb::initialize();
     openvdb::io::File file(path.string());
     file.open(/*delayLoad=*/false);
-    const auto density = openvdb::gridPtrCast<openvdb::FloatGrid>(file.readGrid("density"));
-    const auto tangent = openvdb::gridPtrCast<openvdb::Vec3SGrid>(file.readGrid("tangentu"));
+    PlainGrids grids;
+    grids.density = openvdb::gridPtrCast<openvdb::FloatGrid>(file.readGrid("density"));
+    grids.tangent = openvdb::gridPtrCast<openvdb::Vec3SGrid>(file.readGrid("tangentu"));
     file.close();
     std::filesystem::remove(path);
+    return grids;
+}
+
+TEST(PlainOpenVdb, DensityAndTangentStandWhereTheVoxelsAre) {
+    VoxelGrid grid = testing::make_helix(12.0, 2.0, 1);
+    grid.about.lattice.voxel_size = {0.5, 0.25, 2.0};
+    const auto [density, tangent] = write_and_read(grid);
 
     EXPECT_EQ(density->getGridClass(), openvdb::GRID_FOG_VOLUME);
     EXPECT_EQ(density->activeVoxelCount(), static_cast<openvdb::Index64>(grid.about.voxel_count));
@@ -62,15 +73,7 @@ TEST(PlainOpenVdb, VoxelsOfMicrometresKeepTheirSize) {
     for (const Vec3d size : {Vec3d{2e-6, 2e-6, 2e-6}, Vec3d{2e-6, 1e-6, 4e-6}}) {
         VoxelGrid grid = testing::make_helix(4.0, 1.0, 1);
         grid.about.lattice.voxel_size = size;
-        const auto path = std::filesystem::temp_directory_path() / "heddle_plain_micro.vdb";
-        Progress progress;
-        write_vdb(grid, path.string(), progress);
-        openvdb::initialize();
-        openvdb::io::File file(path.string());
-        file.open(/*delayLoad=*/false);
-        const auto density = openvdb::gridPtrCast<openvdb::FloatGrid>(file.readGrid("density"));
-        file.close();
-        std::filesystem::remove(path);
+        const auto density = write_and_read(grid).density;
         const openvdb::Vec3d at = density->indexToWorld(openvdb::Coord(10, 20, 30));
         EXPECT_DOUBLE_EQ(at.x(), 10.5 * size.x);
         EXPECT_DOUBLE_EQ(at.y(), 20.5 * size.y);
