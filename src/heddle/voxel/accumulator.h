@@ -3,6 +3,7 @@
 #include <heddle/base/platform.h>
 #include <heddle/base/vec.h>
 #include <heddle/voxel/lattice_units.h>
+#include <heddle/voxel/voxel_grid.h>
 
 #include <array>
 #include <cstdint>
@@ -31,16 +32,6 @@ struct VoxelSums {
     LobeSums lobe;                      ///< the first material's; weight 0: none yet
 };
 static_assert(sizeof(VoxelSums) == 152);
-
-/// What a material's maps and an anisotropic surface's tangents sum to, beside a LobeSums. 8-bit map
-/// values times weight.
-struct MapSums {
-    std::array<std::int64_t, 6> tangent{}; ///< second moment of tangents
-    std::array<std::int64_t, 3> albedo{};
-    std::int64_t roughness = 0;
-    std::int64_t metalness = 0;
-    std::int64_t anisotropy = 0;
-};
 
 /// The sums of one block's voxels. Reused from block to block.
 class BlockSums {

@@ -3,6 +3,7 @@
 #include <heddle/base/temp_file.h>
 #include <heddle/voxel/voxel_grid.h>
 
+#include <array>
 #include <memory>
 #include <string>
 
@@ -27,7 +28,8 @@ public:
 private:
     struct Place {
         std::int64_t offset = 0;
-        std::uint32_t leaves = 0, voxels = 0, lobes = 0, maps = 0, tangents = 0;
+        std::uint32_t leaves = 0;
+        std::array<std::uint32_t, 11> sizes{}; ///< of VoxelBlock::for_each_array's vectors
     };
     TempFile file_;
     std::vector<Place> places_;

@@ -7,6 +7,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,8 +17,14 @@ namespace heddle {
 /// of index (0, 0, 0) is the scene's origin.
 struct Lattice {
     Vec3d voxel_size{1.0, 1.0, 1.0}; ///< scene units, > 0
-    std::int32_t subvoxels = 8;      ///< per voxel axis: 1, 2, 4 or 8
+    std::int32_t subvoxels = 8;      ///< per voxel axis: 1, 2, 4 or 8; 2^L times that at level L
 };
+
+/// The lattice of level L over `finest`: a parent is floor(i / 2) per axis.
+[[nodiscard]] inline Lattice lattice_of_level(const Lattice& finest, int level) {
+    const auto factor = static_cast<double>(std::int64_t{1} << level);
+    return {finest.voxel_size * factor, finest.subvoxels << level};
+}
 
 /// What a voxel hides: 16-bit fixed point, 65535 = 1.
 struct Coverage {
@@ -49,11 +56,37 @@ struct LobeMaps {
     friend bool operator==(const LobeMaps&, const LobeMaps&) = default;
 };
 
-/// Which of the optional data a grid holds: absent when no material's maps vary them.
+/// What was pooled into a lobe, unquantized: coarser levels are built from it again bit for bit.
+struct LobeMoment {
+    std::array<std::int64_t, 6> moment{}; ///< sum of weight x d d^T: xx yy zz xy xz yz
+    std::int64_t weight = 0;              ///< directed area, kWeightScale = 1 unit^2
+    friend bool operator==(const LobeMoment&, const LobeMoment&) = default;
+};
+
+/// What a material's maps and an anisotropic surface's tangents sum to, beside a LobeMoment. 8-bit
+/// map values times weight.
+struct MapSums {
+    std::array<std::int64_t, 6> tangent{}; ///< second moment of tangents
+    std::array<std::int64_t, 3> albedo{};
+    std::int64_t roughness = 0;
+    std::int64_t metalness = 0;
+    std::int64_t anisotropy = 0;
+    friend bool operator==(const MapSums&, const MapSums&) = default;
+};
+static_assert(sizeof(LobeMoment) == 56 && sizeof(MapSums) == 96, "written as they lie");
+
+/// Which of the optional data a grid holds. The first three are absent when no material's maps vary
+/// them, the others unless they were asked for.
 struct VoxelGridFields {
     bool albedo = false;   ///< LobeMaps::albedo
     bool surface = false;  ///< LobeMaps::roughness, metalness, anisotropy
     bool tangents = false; ///< a second SGGX per lobe: tangents of anisotropic surfaces
+    bool masks = false; ///< of level 0: columns and sums, so that levels can be built again exactly
+    bool correlation = false;    ///< what neighbouring voxels share
+    std::int32_t footprints = 0; ///< cells per axis of a voxel's face: 4 or 8; 0: none
+
+    [[nodiscard]] bool maps() const { return albedo || surface; }      ///< has LobeMaps
+    [[nodiscard]] bool map_sums() const { return maps() || tangents; } ///< has MapSums with masks
 };
 
 /// The occupied voxels of one 8 x 8 x 8 cell: laid out as a VDB leaf.
@@ -70,28 +103,60 @@ struct VoxelLeaf {
     }
 };
 
-/// The occupied voxels of one block. Voxels of a leaf follow each other in ascending (x, y, z), the
-/// lobes of a voxel by falling weight.
+/// In which order a voxel's lobes merge when fewer are wanted: with n lobes left, lobe n - 1 joins
+/// lobe `merge_target(order, n - 1)`. Lobe 1 joins lobe 0.
+[[nodiscard]] constexpr int merge_target(std::uint32_t order, int lobe) {
+    return lobe < 2 ? 0 : static_cast<int>(order >> (4 * (lobe - 2)) & 15u);
+}
+
+/// The occupied voxels of one block. Voxels of a leaf follow each other in ascending (x, y, z). The
+/// first lobe of a voxel is its heaviest, the others follow in the order that `merge_order` needs.
 struct VoxelBlock {
-    std::vector<VoxelLeaf> leaves;        ///< ascending origin (x, then y, then z)
-    std::vector<Coverage> coverage;       ///< per voxel
-    std::vector<std::uint8_t> lobe_count; ///< per voxel, 1 to K
-    std::vector<Lobe> lobes;              ///< per lobe
-    std::vector<LobeMaps> maps;           ///< per lobe; empty unless fields.albedo or .surface
-    std::vector<PackedSggx> tangents;     ///< per lobe, all zero where the material is isotropic;
-                                          ///< empty unless fields.tangents
+    std::vector<VoxelLeaf> leaves;          ///< ascending origin (x, then y, then z)
+    std::vector<Coverage> coverage;         ///< per voxel
+    std::vector<std::uint8_t> lobe_count;   ///< per voxel, 1 to K
+    std::vector<Lobe> lobes;                ///< per lobe
+    std::vector<LobeMaps> maps;             ///< per lobe; empty unless fields.albedo or .surface
+    std::vector<PackedSggx> tangents;       ///< per lobe, all zero where the material is isotropic;
+                                            ///< empty unless fields.tangents
+    std::vector<std::uint32_t> merge_order; ///< per voxel; empty where none has over two lobes
+
+    std::vector<std::array<std::uint64_t, 3>> columns; ///< per voxel, per axis: bit b n + a of the
+                                                       ///< other two axes; with fields.masks
+    std::vector<LobeMoment> moments;                   ///< per lobe; with fields.masks
+    std::vector<MapSums> map_sums; ///< per lobe; with fields.masks and fields.map_sums()
+    std::vector<std::array<std::uint64_t, 3>> footprints; ///< per voxel, per axis: bit b n + a of
+                                                          ///< n x n cells; with fields.footprints
+    std::vector<std::array<std::uint8_t, 3>> correlation; ///< per voxel, of its face towards the
+                                                          ///< next voxel on each axis, 255 = 1:
+                                                          ///< the same columns; with
+                                                          ///< fields.correlation
+
+    /// Calls f with each of the vectors but `leaves`.
+    template <typename Self, typename F>
+    static void for_each_array(Self& block, const F& f) {
+        f(block.coverage), f(block.lobe_count), f(block.lobes), f(block.maps), f(block.tangents);
+        f(block.merge_order), f(block.columns), f(block.moments), f(block.map_sums);
+        f(block.footprints), f(block.correlation);
+    }
     [[nodiscard]] std::int64_t byte_count() const {
-        return static_cast<std::int64_t>(
-            leaves.capacity() * sizeof(VoxelLeaf) + coverage.capacity() * sizeof(Coverage) +
-            lobe_count.capacity() + lobes.capacity() * sizeof(Lobe) +
-            maps.capacity() * sizeof(LobeMaps) + tangents.capacity() * sizeof(PackedSggx));
+        std::size_t sum = leaves.capacity() * sizeof(VoxelLeaf);
+        for_each_array(*this, [&](const auto& v) { sum += v.capacity() * sizeof(v[0]); });
+        return static_cast<std::int64_t>(sum);
+    }
+    void shrink_to_fit() {
+        leaves.shrink_to_fit();
+        for_each_array(*this, [](auto& v) { v.shrink_to_fit(); });
     }
 };
 
-/// All that is known of a voxelized object beside its voxels.
+/// All that is known of a voxelized object, or of one level of it, beside its voxels.
 struct VoxelGridInfo {
-    std::string name; ///< the object's
-    Lattice lattice;
+    std::string name;           ///< the object's
+    Lattice lattice;            ///< this level's
+    std::int32_t level = 0;     ///< 0: the finest
+    std::string lod{};          ///< method by which levels above 0 were built; empty: none yet
+    bool approximate = false;   ///< levels above 0 were built from stored lobes, not from sums
     std::int32_t max_lobes = 3; ///< K
     VoxelGridFields fields;
     std::vector<Material> materials; ///< by lobe's material id; maps are not kept
@@ -112,6 +177,9 @@ public:
     /// Safe from several threads, each with a scratch of its own.
     [[nodiscard]] virtual const VoxelBlock& block(std::size_t i, VoxelBlock& scratch) const = 0;
 };
+
+/// The levels of an object, finest first. All but lattice, level and counts of their infos agree.
+using VoxelLevels = std::vector<std::unique_ptr<VoxelSource>>;
 
 /// A VoxelSource in memory.
 struct VoxelGrid final : VoxelSource {

@@ -64,15 +64,6 @@ private:
     std::int64_t lobes_ = 0;
 };
 
-void shrink(VoxelBlock& block) {
-    block.leaves.shrink_to_fit();
-    block.coverage.shrink_to_fit();
-    block.lobe_count.shrink_to_fit();
-    block.lobes.shrink_to_fit();
-    block.maps.shrink_to_fit();
-    block.tangents.shrink_to_fit();
-}
-
 } // namespace
 
 std::unique_ptr<VoxelSource> voxelize(const Geometry& geometry,
@@ -100,7 +91,7 @@ std::unique_ptr<VoxelSource> voxelize(const Geometry& geometry,
                 VoxelBlock out;
                 const BlockCounts counts =
                     worker.run(blocks[begin + i], lists.of(i), progress, out);
-                shrink(out);
+                out.shrink_to_fit();
                 keeper.keep(begin + i, out, counts);
             });
             progress.advance(static_cast<std::int64_t>(lists.of(i).size()));
