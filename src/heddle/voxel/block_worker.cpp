@@ -22,10 +22,6 @@ VoxelGridFields fields_of(const Geometry& geometry) {
     return fields;
 }
 
-bool needs_maps(const FitOptions& fit) {
-    return fit.fields.albedo || fit.fields.surface || fit.fields.tangents;
-}
-
 } // namespace
 
 VoxelizeContext::VoxelizeContext(const Geometry& geometry_in,
@@ -43,11 +39,16 @@ VoxelizeContext::VoxelizeContext(const Geometry& geometry_in,
       fit{.subvoxels = lattice.subvoxels,
           .max_lobes = options_in.max_lobes,
           .project_subvoxels = options_in.coverage == CoverageMode::Mask,
-          .fields = fields_of(geometry_in)} {}
+          .fields = fields_of(geometry_in)} {
+    fit.fields.masks = options_in.keep_sums;
+    for (std::size_t m = 0; m < geometry_in.materials.size(); ++m) {
+        fit.normals[m] = geometry_in.materials[m].kind == MaterialKind::Surface;
+    }
+}
 
 BlockWorker::BlockWorker(const VoxelizeContext& context)
     : context_(context),
-      sums_(needs_maps(context.fit)),
+      sums_(context.fit.fields.map_sums()),
       fibers_(context.fibers, context.options),
       triangles_(context.triangles, context.surfaces, context.units, context.options.fit) {}
 
@@ -73,7 +74,7 @@ BlockCounts BlockWorker::run(std::uint64_t block,
 
 std::int64_t BlockWorker::byte_count(const FitOptions& fit) {
     const std::size_t voxel =
-        sizeof(std::uint16_t) + sizeof(VoxelSums) + (needs_maps(fit) ? sizeof(MapSums) : 0);
+        sizeof(std::uint16_t) + sizeof(VoxelSums) + (fit.fields.map_sums() ? sizeof(MapSums) : 0);
     return static_cast<std::int64_t>(voxel * BlockSums::kVoxels + (std::size_t{1} << 18));
 }
 

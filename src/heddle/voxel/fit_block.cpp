@@ -1,8 +1,7 @@
 #include <heddle/voxel/fit_block.h>
 
 #include <heddle/base/trig.h>
-#include <heddle/sggx/moments.h>
-#include <heddle/sggx/pack.h>
+#include <heddle/voxel/lobe_pool.h>
 
 #include <algorithm>
 #include <array>
@@ -14,10 +13,6 @@ namespace {
 
 constexpr int kLeaf = 8;
 constexpr int kLeaves = kBlockVoxels / kLeaf;
-
-std::uint16_t fraction16(int part, int whole) {
-    return static_cast<std::uint16_t>((part * 65535 + whole / 2) / whole);
-}
 
 /// Columns along each axis that hold a hit subvoxel.                       [Fabre26, 3.5]
 std::array<std::uint64_t, 3> project(const VoxelSums& voxel, int n) {
@@ -41,107 +36,65 @@ HEDDLE_INLINE int hit_subvoxels(const VoxelSums& voxel, int n) {
     return hits;
 }
 
-HEDDLE_INLINE Coverage coverage_of(const VoxelSums& voxel, const FitOptions& options, int hits) {
-    const int n = options.subvoxels;
-    const std::array<std::uint64_t, 3> column =
-        options.project_subvoxels ? project(voxel, n) : voxel.column;
-    return {fraction16(std::popcount(column[0]), n * n),
-            fraction16(std::popcount(column[1]), n * n),
-            fraction16(std::popcount(column[2]), n * n), fraction16(hits, n * n * n)};
-}
-
-SymmetricMatrix to_moment(const std::array<std::int64_t, 6>& sums, std::int64_t weight) {
-    const double inv = 1.0 / static_cast<double>(weight);
-    const auto entry = [&](std::size_t i) {
-        return static_cast<float>(static_cast<double>(sums[i]) * inv);
-    };
-    return {entry(0), entry(1), entry(2), entry(3), entry(4), entry(5)};
-}
-
-/// Fits that were just made: the voxels that one flat triangle passes alone have few different sums.
-class RecentFits {
-public:
-    HEDDLE_INLINE PackedSggx fit(const LobeSums& lobe) {
-        std::uint64_t h = static_cast<std::uint64_t>(lobe.weight);
-        for (const std::int64_t m : lobe.moment) {
-            h = (h ^ static_cast<std::uint64_t>(m)) * 0x9e3779b97f4a7c15u;
-        }
-        Entry& entry = entries_[h >> (64 - kBits)];
-        if (entry.weight != lobe.weight || entry.moment != lobe.moment) {
-            entry = {lobe.moment, lobe.weight, pack(fit_sggx(to_moment(lobe.moment, lobe.weight)))};
-        }
-        return entry.sggx;
-    }
-
-private:
-    static constexpr int kBits = 8;
-    struct Entry {
-        std::array<std::int64_t, 6> moment{};
-        std::int64_t weight = 0; ///< no lobe's: they weigh 1 or more
-        PackedSggx sggx;
-    };
-    std::array<Entry, std::size_t{1} << kBits> entries_;
-};
-
 /// What a block's voxels share while they are fitted.
 struct BlockFit {
     const BlockSums& sums;
     const FitOptions& options;
     VoxelBlock& out;
-    std::vector<const LobeSums*> order{};
+    std::vector<const LobeSums*> list{};
+    LobePool pool{};
     RecentFits fits{};
 };
 
-std::uint8_t mean8(std::int64_t sum, std::int64_t weight) {
-    return static_cast<std::uint8_t>(std::clamp<std::int64_t>((sum + weight / 2) / weight, 0, 255));
+/// Takes the voxel's lobes into the pool, one a material, as many as may be stored.
+/// @return  VoxelBlock::merge_order
+HEDDLE_INLINE std::uint32_t pool_lobes(BlockFit& fit, const VoxelSums& voxel) {
+    const BlockSums& sums = fit.sums;
+    const FitOptions& options = fit.options;
+    LobePool& pool = fit.pool;
+    pool.count = 0;
+    const bool with_maps = options.fields.map_sums();
+    std::vector<const LobeSums*>& list = fit.list;
+    list.clear();
+    for (const LobeSums* l = &voxel.lobe; l != nullptr; l = sums.next(*l)) list.push_back(l);
+    if (list.size() > 1) { // as they were met, which depends on the region
+        std::sort(list.begin(), list.end(),
+                  [](const LobeSums* a, const LobeSums* b) { return a->material < b->material; });
+    }
+    for (const LobeSums* l : list) {
+        if (pool.count == kMaxPool) reduce(pool, kMaxLobes, with_maps, ByMoments{});
+        DirectionSums lobe{
+            .weight = l->weight, .material = l->material, .normals = options.normals[l->material]};
+        std::copy_n(l->moment.begin(), 6, lobe.moment);
+        pool.add(lobe, sums.find_maps(voxel, *l));
+    }
+    return reduce(pool, options.max_lobes, with_maps, ByMoments{});
 }
 
-HEDDLE_INLINE void
-append_lobe(BlockFit& fit, const VoxelSums& voxel, const LobeSums& lobe, std::int64_t total) {
-    const auto& [sums, options, out, order, fits] = fit;
-    const auto share = static_cast<double>(lobe.weight) / static_cast<double>(total);
-    out.lobes.push_back(
-        {fit.fits.fit(lobe),
-         static_cast<std::uint8_t>(std::max(1, static_cast<int>(share * 255.0 + 0.5))),
-         static_cast<std::uint8_t>(lobe.material)});
-    const MapSums* maps = sums.find_maps(voxel, lobe);
-    if (options.fields.albedo || options.fields.surface) {
-        LobeMaps mean;
-        if (maps != nullptr) {
-            for (std::size_t i = 0; i < 3; ++i)
-                mean.albedo[i] = mean8(maps->albedo[i], lobe.weight);
-            mean.roughness = mean8(maps->roughness, lobe.weight);
-            mean.metalness = mean8(maps->metalness, lobe.weight);
-            mean.anisotropy = mean8(maps->anisotropy, lobe.weight);
-        }
-        out.maps.push_back(mean);
-    }
-    if (options.fields.tangents) {
-        PackedSggx tangent;
-        if (maps != nullptr) {
-            const std::int64_t trace = maps->tangent[0] + maps->tangent[1] + maps->tangent[2];
-            if (trace > 0) tangent = pack(fit_sggx(to_moment(maps->tangent, trace)));
-        }
-        out.tangents.push_back(tangent);
+/// Keeps what coarser levels are built from.
+HEDDLE_INLINE void append_sums(BlockFit& fit, const std::array<std::uint64_t, 3>& column) {
+    const LobePool& pool = fit.pool;
+    fit.out.columns.push_back(column);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(pool.count); ++i) {
+        LobeMoment& sums = fit.out.moments.emplace_back();
+        std::copy_n(pool.sums[i].moment, 6, sums.moment.begin());
+        sums.weight = pool.sums[i].weight;
+        if (fit.options.fields.map_sums()) fit.out.map_sums.push_back(pool.maps[i]);
     }
 }
 
 HEDDLE_INLINE std::int64_t append_voxel(BlockFit& fit, const VoxelSums& voxel) {
-    auto& [sums, options, out, order, fits] = fit;
-    const int hits = hit_subvoxels(voxel, options.subvoxels);
-    out.coverage.push_back(coverage_of(voxel, options, hits));
-    order.clear();
-    for (const LobeSums* l = &voxel.lobe; l != nullptr; l = sums.next(*l)) order.push_back(l);
-    std::sort(order.begin(), order.end(), [](const LobeSums* a, const LobeSums* b) {
-        return a->weight != b->weight ? a->weight > b->weight : a->material < b->material;
-    });
-    if (order.size() > static_cast<std::size_t>(options.max_lobes)) {
-        order.resize(static_cast<std::size_t>(options.max_lobes));
-    }
-    std::int64_t total = 0;
-    for (const LobeSums* l : order) total += l->weight;
-    for (const LobeSums* l : order) append_lobe(fit, voxel, *l, total);
-    out.lobe_count.push_back(static_cast<std::uint8_t>(order.size()));
+    const FitOptions& options = fit.options;
+    const int n = options.subvoxels;
+    const int hits = hit_subvoxels(voxel, n);
+    const std::array<std::uint64_t, 3> column =
+        options.project_subvoxels ? project(voxel, n) : voxel.column;
+    fit.out.coverage.push_back(
+        {fraction16(std::popcount(column[0]), n * n), fraction16(std::popcount(column[1]), n * n),
+         fraction16(std::popcount(column[2]), n * n), fraction16(hits, n * n * n)});
+    const std::uint32_t order = pool_lobes(fit, voxel);
+    append_lobes(fit.pool, order, options.fields, fit.fits, fit.out);
+    if (options.fields.masks) append_sums(fit, column);
     return hits;
 }
 

@@ -9,8 +9,9 @@ namespace heddle {
 struct FitOptions {
     int subvoxels = 8;
     int max_lobes = 3;
-    bool project_subvoxels = false; ///< CoverageMode::Mask: coverage from the subvoxel mask
-    VoxelGridFields fields;
+    bool project_subvoxels = false;  ///< CoverageMode::Mask: coverage from the subvoxel mask
+    VoxelGridFields fields;          ///< with `masks`, sums are kept too
+    std::array<bool, 256> normals{}; ///< by material: its lobes are of normals
 };
 
 /// What a block's sums amounted to; for the planner's estimates.
@@ -28,8 +29,7 @@ struct BlockCounts {
 ///
 /// Coverage is popcount / columns per axis, occupancy hit / all subvoxels [Fabre26, eq. 12], both
 /// rounded to 16 bits. A lobe's S is the SGGX whose second moment is the pooled one (sggx/moments.h).
-/// Of more than max_lobes materials the heaviest stay, of equal weight the lower id.
-/// @param scratch  reused memory
+/// Of more than max_lobes materials those whose directions are closest share a lobe.
 BlockCounts fit_block(const BlockSums& sums, const FitOptions& options, VoxelBlock& out);
 
 } // namespace heddle

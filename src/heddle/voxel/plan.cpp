@@ -189,7 +189,8 @@ void choose_range(VoxelizePlan& plan, const std::string& name) {
 BlockCounts measure_sample(VoxelizePlan& plan,
                            const VoxelizeContext& context,
                            const Bins& bins,
-                           const Progress& progress) {
+                           const Progress& progress,
+                           BlockVisitor* visitor) {
     const std::size_t blocks = bins.blocks().size();
     if (blocks == 0) return {};
     const bool surfaces = context.triangles.count() > context.fibers.span_count();
@@ -211,6 +212,7 @@ BlockCounts measure_sample(VoxelizePlan& plan,
         pool.with([&](BlockWorker& worker) {
             VoxelBlock out;
             counts[s] = worker.run(chosen[s], lists.of(s), progress, out);
+            if (visitor != nullptr) visitor->sample(bins.range().index(chosen[s]), out);
         });
     });
     const double scale = surfaces ? static_cast<double>(blocks) / static_cast<double>(chosen.size())
@@ -224,6 +226,11 @@ BlockCounts measure_sample(VoxelizePlan& plan,
     plan.lobes = scaled(&BlockCounts::lobes);
     plan.leaves = scaled(&BlockCounts::leaves);
     plan.touched_subvoxels = scaled(&BlockCounts::subvoxels);
+    if (visitor != nullptr) {
+        std::vector<Vec3i> all;
+        for (const std::uint32_t block : bins.blocks()) all.push_back(bins.range().index(block));
+        visitor->plan(all, scale, plan);
+    }
     return {.triangles = scaled(&BlockCounts::triangles),
             .triangle_hits = scaled(&BlockCounts::triangle_hits),
             .surface_samples = scaled(&BlockCounts::surface_samples)};
@@ -274,22 +281,20 @@ void plan_memory(VoxelizePlan& plan, const VoxelizeContext& context, const Bins&
     const std::int64_t counts = bins.byte_count();
     const std::int64_t workers = thread_count() * BlockWorker::byte_count(context.fit);
     const VoxelGridFields& fields = plan.fields;
-    const auto per_lobe = static_cast<std::int64_t>(
-        sizeof(Lobe) + (fields.albedo || fields.surface ? sizeof(LobeMaps) : 0) +
-        (fields.tangents ? sizeof(PackedSggx) : 0));
-    const auto result = plan.leaves * static_cast<std::int64_t>(sizeof(VoxelLeaf)) +
-                        plan.voxels * static_cast<std::int64_t>(sizeof(Coverage) + 1) +
-                        plan.lobes * per_lobe;
+    const std::int64_t result = plan.visitor_result_bytes +
+                                predict_block_bytes(plan.leaves, plan.voxels, plan.lobes, fields);
     const std::int64_t writer =
-        context.options.writer_bytes + plan.leaves * context.options.writer_bytes_per_leaf;
+        context.options.writer_bytes +
+        (plan.leaves + plan.visitor_leaves) * context.options.writer_bytes_per_leaf;
     const auto entries = static_cast<std::int64_t>(bins.total_entries() * sizeof(Primitive));
 
     const auto peak = [&](std::int64_t kept, std::int64_t lists) {
-        return fixed + std::max(counts + workers + kept + lists, kept + writer);
+        return fixed +
+               std::max(counts + workers + plan.visitor_bytes + kept + lists, kept + writer);
     };
     plan.spool = peak(result, std::min(entries, limit / 8)) > limit;
     const std::int64_t kept = plan.spool ? 0 : result;
-    const std::int64_t room = limit - fixed - counts - workers - kept;
+    const std::int64_t room = limit - fixed - counts - workers - plan.visitor_bytes - kept;
     const std::int64_t lists = std::max<std::int64_t>(room, entries / 64 + 1);
     plan.batches = entries == 0 ? 1 : (entries + lists - 1) / lists;
     plan.peak_bytes = peak(kept, std::min(entries, lists));
@@ -303,8 +308,10 @@ void plan_memory(VoxelizePlan& plan, const VoxelizeContext& context, const Bins&
 
 } // namespace
 
-VoxelizePlan
-plan_voxelize(const Geometry& geometry, const VoxelizeOptions& options, const Progress& progress) {
+VoxelizePlan plan_voxelize(const Geometry& geometry,
+                           const VoxelizeOptions& options,
+                           const Progress& progress,
+                           BlockVisitor* visitor) {
     check_options(options);
     check_geometry(geometry);
     const Bounds whole = bounds_of(geometry);
@@ -323,9 +330,10 @@ plan_voxelize(const Geometry& geometry, const VoxelizeOptions& options, const Pr
     }
     choose_range(plan, geometry.name);
     check_blocks(BlockRange(plan.voxel_lo, plan.voxel_hi), options);
-    const VoxelizeContext context(geometry, options, plan.lattice, plan.voxel_lo, plan.voxel_hi);
+    VoxelizeContext context(geometry, options, plan.lattice, plan.voxel_lo, plan.voxel_hi);
     const Bins bins(context.fibers, context.triangles, context.range, progress);
     plan.fields = context.fit.fields;
+    if (visitor != nullptr) context.fit.fields.masks = true;
     plan.block_voxels = kBlockVoxels;
     plan.blocks = static_cast<std::int64_t>(bins.blocks().size());
     plan.primitives =
@@ -333,7 +341,7 @@ plan_voxelize(const Geometry& geometry, const VoxelizeOptions& options, const Pr
     plan.steps = context.fibers.steps();
     plan.step_length = context.units.unit;
     plan.chord_error = kChordSagitta * 2.0 / 3.0;
-    const BlockCounts work = measure_sample(plan, context, bins, progress);
+    const BlockCounts work = measure_sample(plan, context, bins, progress, visitor);
     const auto voxels = static_cast<double>(plan.voxels);
     const double fibers = kSecondsPerStep * plan.steps +
                           kSecondsPerSubvoxel * static_cast<double>(plan.touched_subvoxels) +

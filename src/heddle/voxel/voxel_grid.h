@@ -36,6 +36,11 @@ struct Coverage {
 };
 static_assert(sizeof(Coverage) == 8);
 
+/// part / whole, rounded to 16 bits: exact to take back while `whole` is below 65535.
+[[nodiscard]] constexpr std::uint16_t fraction16(std::int64_t part, std::int64_t whole) {
+    return static_cast<std::uint16_t>((part * 65535 + whole / 2) / whole);
+}
+
 /// One SGGX of a voxel with its share and material: of tangents for a fiber material, of normals for
 /// a surface.
 struct Lobe {
@@ -149,6 +154,22 @@ struct VoxelBlock {
         for_each_array(*this, [](auto& v) { v.shrink_to_fit(); });
     }
 };
+
+/// What blocks with so many leaves, voxels and lobes take in memory.
+[[nodiscard]] inline std::int64_t predict_block_bytes(std::int64_t leaves,
+                                                      std::int64_t voxels,
+                                                      std::int64_t lobes,
+                                                      const VoxelGridFields& fields) {
+    const std::size_t per_voxel = sizeof(Coverage) + 1 + (fields.masks ? 24 : 0) +
+                                  (fields.footprints != 0 ? 24 : 0) + (fields.correlation ? 3 : 0);
+    const std::size_t sums = sizeof(LobeMoment) + (fields.map_sums() ? sizeof(MapSums) : 0);
+    const std::size_t per_lobe = sizeof(Lobe) + (fields.maps() ? sizeof(LobeMaps) : 0) +
+                                 (fields.tangents ? sizeof(PackedSggx) : 0) +
+                                 (fields.masks ? sums : 0);
+    return leaves * static_cast<std::int64_t>(sizeof(VoxelLeaf)) +
+           voxels * static_cast<std::int64_t>(per_voxel) +
+           lobes * static_cast<std::int64_t>(per_lobe);
+}
 
 /// All that is known of a voxelized object, or of one level of it, beside its voxels.
 struct VoxelGridInfo {

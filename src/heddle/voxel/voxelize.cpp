@@ -3,9 +3,11 @@
 #include <heddle/base/parallel.h>
 #include <heddle/voxel/block_worker.h>
 #include <heddle/voxel/spool.h>
+#include <heddle/voxel/z_order.h>
 
 #include <algorithm>
 #include <mutex>
+#include <numeric>
 
 namespace heddle {
 namespace {
@@ -64,16 +66,60 @@ private:
     std::int64_t lobes_ = 0;
 };
 
+/// The occupied blocks in Z-order: what is next to each other is done soon after each other.
+struct BlockOrder {
+    std::vector<std::uint32_t> block; ///< numbers
+    std::vector<Vec3i> index;
+
+    explicit BlockOrder(const Bins& bins) : block(bins.blocks()) {
+        const BlockRange& range = bins.range();
+        std::sort(block.begin(), block.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return z_order_less(range.index(a), range.index(b));
+        });
+        for (const std::uint32_t b : block) index.push_back(range.index(b));
+    }
+};
+
+/// The numbers of some blocks ascending, as Bins::fill wants them, and where each went.
+struct SortedBlocks {
+    std::vector<std::uint32_t> block;
+    std::vector<std::uint32_t> place;
+
+    explicit SortedBlocks(std::span<const std::uint32_t> some) : place(some.size()) {
+        std::vector<std::uint32_t> order(some.size());
+        std::iota(order.begin(), order.end(), 0u);
+        std::sort(order.begin(), order.end(),
+                  [&](std::uint32_t a, std::uint32_t b) { return some[a] < some[b]; });
+        for (std::uint32_t i = 0; i < order.size(); ++i) {
+            block.push_back(some[order[i]]);
+            place[order[i]] = i;
+        }
+    }
+};
+
+/// What only levels are built from goes when they are.
+void drop_sums(VoxelBlock& block) {
+    block.columns = {};
+    block.moments = {};
+    block.map_sums = {};
+}
+
 } // namespace
 
 std::unique_ptr<VoxelSource> voxelize(const Geometry& geometry,
                                       const VoxelizeOptions& options,
                                       const VoxelizePlan& plan,
-                                      Progress& progress) {
-    const VoxelizeContext context(geometry, options, plan.lattice, plan.voxel_lo, plan.voxel_hi);
+                                      Progress& progress,
+                                      BlockVisitor* visitor) {
+    VoxelizeContext context(geometry, options, plan.lattice, plan.voxel_lo, plan.voxel_hi);
     const Bins bins(context.fibers, context.triangles, context.range, progress);
-    const std::span<const std::uint32_t> blocks(bins.blocks());
+    const BlockOrder order(bins);
+    const std::span<const std::uint32_t> blocks(order.block);
     Keeper keeper(info_of(context, plan), blocks.size(), plan.spool, options.spool_dir);
+    if (visitor != nullptr) {
+        context.fit.fields.masks = true;
+        visitor->begin(order.index);
+    }
     WorkerPool pool(context);
     progress.begin("voxelize", "primitives", static_cast<std::int64_t>(bins.total_entries()));
     const std::uint64_t batch_entries =
@@ -84,17 +130,21 @@ std::unique_ptr<VoxelSource> voxelize(const Geometry& geometry,
         for (std::uint64_t sum = 0; end < blocks.size() && sum < batch_entries; ++end) {
             sum += bins.entries(blocks[end]);
         }
-        const Bins::Lists lists = bins.fill(blocks.subspan(begin, end - begin), progress);
+        const SortedBlocks sorted(blocks.subspan(begin, end - begin));
+        const Bins::Lists lists = bins.fill(sorted.block, progress);
         parallel_chunks(end - begin, 1, [&](std::size_t i, std::size_t) {
             progress.check();
+            const std::span<const Primitive> primitives = lists.of(sorted.place[i]);
+            VoxelBlock out;
+            BlockCounts counts;
             pool.with([&](BlockWorker& worker) {
-                VoxelBlock out;
-                const BlockCounts counts =
-                    worker.run(blocks[begin + i], lists.of(i), progress, out);
-                out.shrink_to_fit();
-                keeper.keep(begin + i, out, counts);
+                counts = worker.run(blocks[begin + i], primitives, progress, out);
             });
-            progress.advance(static_cast<std::int64_t>(lists.of(i).size()));
+            if (visitor != nullptr) visitor->visit(begin + i, out);
+            if (!options.keep_sums) drop_sums(out);
+            out.shrink_to_fit();
+            keeper.keep(begin + i, out, counts);
+            progress.advance(static_cast<std::int64_t>(primitives.size()));
         });
         begin = end;
     }

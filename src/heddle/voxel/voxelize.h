@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace heddle {
@@ -31,12 +32,37 @@ struct VoxelizeOptions {
     CoverageMode coverage = CoverageMode::Columns;
     FitMode fit = FitMode::Moments;
     std::int64_t samples = 0;      ///< per span, with CoverageMode::Mask; 0: two a subvoxel
+    bool keep_sums = false;        ///< VoxelGridFields::masks stays in the result
     std::int64_t memory_bytes = 0; ///< peak resident size that is kept; 0: half of what is free
     std::uint64_t seed = 0;
     std::int64_t writer_bytes = 0; ///< what the caller will take to write the result, and per leaf
     std::int64_t writer_bytes_per_leaf = 0; ///< (io/vdb/predict_vdb.h says how much); in the plan
     std::string spool_dir = ".";            ///< where finished blocks go when memory is short
     std::string command;                    ///< kept in the result
+};
+
+struct VoxelizePlan;
+
+/// Sees each finished block while its sums are at hand: how coarser levels are built in one pass.
+/// Called from several threads at once.
+class BlockVisitor {
+public:
+    virtual ~BlockVisitor() = default;
+
+    /// The blocks that visit() will be called for, once each, in about this order: neighbours follow
+    /// each other (Z-order). Called once before the first.
+    /// @param index  of each block: its voxels are index * kBlockVoxels and on
+    virtual void begin(std::span<const Vec3i> index) = 0;
+    /// @param rank   of the block in begin()'s list
+    /// @param block  with columns and sums; may be empty
+    virtual void visit(std::size_t rank, const VoxelBlock& block) = 0;
+
+    /// One of the blocks that the planner voxelizes to see what they cost.
+    virtual void sample(Vec3i index, const VoxelBlock& block) = 0;
+    /// Adds to the plan what the visitor will hold (bytes, time), after the samples.
+    /// @param blocks  all
+    /// @param scale   how many voxels stand for one of the samples'
+    virtual void plan(std::span<const Vec3i> blocks, double scale, VoxelizePlan& plan) = 0;
 };
 
 /// What the voxelizer would do, and what it would cost.
@@ -58,8 +84,12 @@ struct VoxelizePlan {
     std::int64_t lobes = 0;
     std::int64_t leaves = 0;
     std::int64_t touched_subvoxels = 0;
-    std::int64_t peak_bytes = 0; ///< predicted peak resident size, the caller's share included
-    bool spool = false;          ///< finished blocks wait in a temporary file
+    std::int64_t peak_bytes = 0;    ///< predicted peak resident size, the caller's share included
+    std::int64_t visitor_bytes = 0; ///< of the peak: what a BlockVisitor holds
+    std::int64_t visitor_result_bytes = 0; ///< what it adds to the result, spooled with it
+    std::int64_t visitor_file_bytes = 0;   ///< and to the file
+    std::int64_t visitor_leaves = 0;       ///< of 8^3 voxels, in all its levels together
+    bool spool = false;                    ///< finished blocks wait in a temporary file
     double seconds =
         0.0; ///< predicted, on `thread_count()` threads of the machine that was measured
 };
@@ -69,7 +99,8 @@ struct VoxelizePlan {
 ///                more than 2^40 voxels or 2^30 along an axis; OutOfMemory: `memory_bytes` below the least; Cancelled
 [[nodiscard]] VoxelizePlan plan_voxelize(const Geometry& geometry,
                                          const VoxelizeOptions& options,
-                                         const Progress& progress = Progress());
+                                         const Progress& progress = Progress(),
+                                         BlockVisitor* visitor = nullptr);
 
 /// Voxelizes `geometry`: same bits for any thread count, memory limit and batch size; a region
 /// (`options.bounds`) gives the same voxels as the whole.      [Fabre26, 3; docs/voxelizer.md]
@@ -77,6 +108,7 @@ struct VoxelizePlan {
 [[nodiscard]] std::unique_ptr<VoxelSource> voxelize(const Geometry& geometry,
                                                     const VoxelizeOptions& options,
                                                     const VoxelizePlan& plan,
-                                                    Progress& progress);
+                                                    Progress& progress,
+                                                    BlockVisitor* visitor = nullptr);
 
 } // namespace heddle

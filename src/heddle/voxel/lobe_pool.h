@@ -1,0 +1,121 @@
+#pragma once
+
+#include <heddle/base/platform.h>
+#include <heddle/sggx/merge_order.h>
+#include <heddle/sggx/moment_lobes.h>
+#include <heddle/voxel/voxel_grid.h>
+
+#include <algorithm>
+#include <array>
+
+namespace heddle {
+
+/// The lobes of one voxel, or of several that become one, before they are stored.
+struct LobePool {
+    int count = 0; ///< at most kMaxPool
+    std::array<DirectionSums, kMaxPool> sums;
+    std::array<MapSums, kMaxPool> maps; ///< meaningless unless the grid has map sums
+
+    void add(const DirectionSums& lobe, const MapSums* lobe_maps) {
+        const auto at = static_cast<std::size_t>(count++);
+        sums[at] = lobe;
+        if (lobe_maps != nullptr) maps[at] = *lobe_maps;
+    }
+};
+
+/// a += b, sum by sum.
+HEDDLE_INLINE void add_maps(MapSums& a, const MapSums& b) {
+    for (std::size_t i = 0; i < 6; ++i) a.tangent[i] += b.tangent[i];
+    for (std::size_t i = 0; i < 3; ++i) a.albedo[i] += b.albedo[i];
+    a.roughness += b.roughness;
+    a.metalness += b.metalness;
+    a.anisotropy += b.anisotropy;
+}
+
+/// Lines up at most kMaxLobes lobes as a voxel stores them: the heaviest first, the others so that the
+/// last one merges first.
+/// @param make_lobes  (DirectionSums*, int count) -> how lobes are compared and merged (agglomerate.h)
+/// @param with_maps   pool.maps count
+/// @return            VoxelBlock::merge_order
+template <typename MakeLobes>
+std::uint32_t line_up(LobePool& pool, bool with_maps, const MakeLobes& make_lobes) {
+    if (pool.count < 2) return 0;
+    const auto count = static_cast<std::size_t>(pool.count);
+    std::array<DirectionSums, kMaxLobes> sums;
+    std::array<std::int64_t, kMaxLobes> weight;
+    std::copy_n(pool.sums.begin(), count, sums.begin());
+    for (std::size_t i = 0; i < count; ++i) weight[i] = sums[i].weight;
+    std::array<LobeMerge, kMaxLobes> merges;
+    if (count == 2) {
+        merges[0] = {0, 1};
+    } else {
+        auto lobes = make_lobes(sums.data(), pool.count);
+        agglomerate(pool.count, 1, lobes, merges.data());
+    }
+    const MergeOrder order = order_merges(pool.count, merges.data(), weight.data());
+    std::copy_n(pool.sums.begin(), count, sums.begin());
+    for (std::size_t i = 0; i < count; ++i) pool.sums[order.place[i]] = sums[i];
+    if (with_maps) {
+        std::array<MapSums, kMaxLobes> maps;
+        std::copy_n(pool.maps.begin(), count, maps.begin());
+        for (std::size_t i = 0; i < count; ++i) pool.maps[order.place[i]] = maps[i];
+    }
+    return order.targets;
+}
+
+/// Merges the pool's closest lobes until `keep` are left, at most kMaxLobes, and lines them up.
+/// @return  as line_up
+template <typename MakeLobes>
+std::uint32_t reduce(LobePool& pool, int keep, bool with_maps, const MakeLobes& make_lobes) {
+    if (pool.count > keep) {
+        std::array<LobeMerge, kMaxPool> merges;
+        auto lobes = make_lobes(pool.sums.data(), pool.count);
+        const int made = agglomerate(pool.count, keep, lobes, merges.data());
+        std::array<bool, kMaxPool> gone{};
+        for (int k = 0; k < made; ++k) {
+            const LobeMerge& m = merges[static_cast<std::size_t>(k)];
+            gone[m.from] = true;
+            if (with_maps) add_maps(pool.maps[m.into], pool.maps[m.from]);
+        }
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < static_cast<std::size_t>(pool.count); ++i) {
+            if (gone[i]) continue;
+            pool.sums[kept] = pool.sums[i];
+            if (with_maps) pool.maps[kept] = pool.maps[i];
+            ++kept;
+        }
+        pool.count = static_cast<int>(kept);
+    }
+    return line_up(pool, with_maps, make_lobes);
+}
+
+/// The default way of reduce() and line_up(): by second moments.
+struct ByMoments {
+    MomentLobes operator()(DirectionSums* lobes, int count) const { return {lobes, count}; }
+};
+
+/// Fits that were just made: the voxels that one flat triangle passes alone have few different sums.
+class RecentFits {
+public:
+    [[nodiscard]] PackedSggx fit(const std::int64_t (&moment)[6], std::int64_t weight);
+
+private:
+    static constexpr int kBits = 8;
+    struct Entry {
+        std::int64_t moment[6]{};
+        std::int64_t weight = 0; ///< no lobe's: they weigh 1 or more
+        PackedSggx sggx;
+    };
+    std::array<Entry, std::size_t{1} << kBits> entries_;
+};
+
+/// Appends the voxel's lobes, at most kMaxLobes, to the block's arrays of lobes and its count: S is
+/// fitted and packed here and nowhere before.
+/// @param order  of reduce() or line_up()
+void append_lobes(const LobePool& pool,
+                  std::uint32_t order,
+                  const VoxelGridFields& fields,
+                  RecentFits& fits,
+                  VoxelBlock& out);
+
+} // namespace heddle
