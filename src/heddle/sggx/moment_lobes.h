@@ -6,6 +6,13 @@
 
 namespace heddle {
 
+/// Tangents of fibers as the normals around them, or normals of surfaces as the tangents in them:
+/// t t^T -> (I - t t^T) / 2.
+HEDDLE_HD inline void swap_kind(DirectionSums& s) {
+    for (int k = 0; k < 6; ++k) s.moment[k] = ((k < 3 ? s.weight : 0) - s.moment[k]) / 2;
+    s.normals = !s.normals;
+}
+
 /// Lobes that merge by their second moments.
 class MomentLobes {
 public:
@@ -28,8 +35,8 @@ public:
         const bool other = b.weight > a.weight || (b.weight == a.weight && b.material < a.material);
         const std::uint32_t material = other ? b.material : a.material;
         const bool normals = other ? b.normals : a.normals;
-        if (a.normals != normals) convert(a);
-        if (b.normals != normals) convert(b);
+        if (a.normals != normals) swap_kind(a);
+        if (b.normals != normals) swap_kind(b);
         for (int k = 0; k < 6; ++k) a.moment[k] += b.moment[k];
         a.weight += b.weight;
         a.material = material;
@@ -38,10 +45,6 @@ public:
     }
 
 private:
-    HEDDLE_HD static void convert(DirectionSums& s) {
-        for (int k = 0; k < 6; ++k) s.moment[k] = ((k < 3 ? s.weight : 0) - s.moment[k]) / 2;
-        s.normals = !s.normals;
-    }
     HEDDLE_HD void normalize(int i) {
         const double inv = 1.0 / static_cast<double>(lobes_[i].weight);
         for (int k = 0; k < 6; ++k) {

@@ -26,15 +26,16 @@ VoxelGridFields fields_of(const Geometry& geometry) {
 
 VoxelizeContext::VoxelizeContext(const Geometry& geometry_in,
                                  const VoxelizeOptions& options_in,
-                                 const Lattice& lattice,
+                                 const Lattice& lattice_in,
                                  Vec3i voxel_lo,
                                  Vec3i voxel_hi)
     : geometry(geometry_in),
       options(options_in),
-      units(lattice),
+      units(lattice_in),
       fibers(geometry_in, units, options_in.seed),
       triangles(geometry_in),
       surfaces(geometry_in, units, options_in.seed),
+      lattice(lattice_in),
       range(voxel_lo, voxel_hi),
       fit{.subvoxels = lattice.subvoxels,
           .max_lobes = options_in.max_lobes,
@@ -44,6 +45,19 @@ VoxelizeContext::VoxelizeContext(const Geometry& geometry_in,
     for (std::size_t m = 0; m < geometry_in.materials.size(); ++m) {
         fit.normals[m] = geometry_in.materials[m].kind == MaterialKind::Surface;
     }
+}
+
+VoxelGridInfo VoxelizeContext::info() const {
+    VoxelGridInfo info{.name = geometry.name,
+                       .lattice = lattice,
+                       .max_lobes = options.max_lobes,
+                       .fields = fit.fields,
+                       .materials = geometry.materials,
+                       .yarns = geometry.yarns,
+                       .command = options.command};
+    info.fields.masks = options.keep_sums;
+    for (YarnType& yarn : info.yarns) yarn.slice.texels.clear();
+    return info;
 }
 
 BlockWorker::BlockWorker(const VoxelizeContext& context)

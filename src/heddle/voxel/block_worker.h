@@ -20,6 +20,7 @@ struct VoxelizeContext {
     FiberSource fibers;
     TriangleSource triangles;
     SurfaceSource surfaces;
+    Lattice lattice;
     BlockRange range;
     FitOptions fit;
 
@@ -28,6 +29,9 @@ struct VoxelizeContext {
                     const Lattice& lattice,
                     Vec3i voxel_lo,
                     Vec3i voxel_hi);
+
+    /// What is known of the result before it is there.
+    [[nodiscard]] VoxelGridInfo info() const;
 };
 
 /// Turns one block's primitives into voxels; keeps its memory from block to block.

@@ -36,6 +36,20 @@ PackedSggx fit_tangents(const MapSums& sums) {
 
 } // namespace
 
+MapSums scale_maps(const MapSums& maps, std::int64_t whole, std::int64_t part) {
+    const double factor = static_cast<double>(whole) / static_cast<double>(part);
+    const auto scale = [&](std::int64_t x) {
+        return static_cast<std::int64_t>(static_cast<double>(x) * factor);
+    };
+    MapSums out;
+    for (std::size_t i = 0; i < 6; ++i) out.tangent[i] = scale(maps.tangent[i]);
+    for (std::size_t i = 0; i < 3; ++i) out.albedo[i] = scale(maps.albedo[i]);
+    out.roughness = scale(maps.roughness);
+    out.metalness = scale(maps.metalness);
+    out.anisotropy = scale(maps.anisotropy);
+    return out;
+}
+
 PackedSggx RecentFits::fit(const std::int64_t (&moment)[6], std::int64_t weight) {
     std::uint64_t h = static_cast<std::uint64_t>(weight);
     for (const std::int64_t m : moment) {

@@ -32,6 +32,9 @@ HEDDLE_INLINE void add_maps(MapSums& a, const MapSums& b) {
     a.anisotropy += b.anisotropy;
 }
 
+/// The sums of a lobe whose weight goes from `part` to `whole`, means unchanged.
+[[nodiscard]] MapSums scale_maps(const MapSums& maps, std::int64_t whole, std::int64_t part);
+
 /// Lines up at most kMaxLobes lobes as a voxel stores them: the heaviest first, the others so that the
 /// last one merges first.
 /// @param make_lobes  (DirectionSums*, int count) -> how lobes are compared and merged (agglomerate.h)

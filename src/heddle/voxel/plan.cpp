@@ -207,12 +207,13 @@ BlockCounts measure_sample(VoxelizePlan& plan,
     }
     const Bins::Lists lists = bins.fill(chosen, progress);
     WorkerPool pool(context);
+    const VoxelGridInfo info = context.info();
     std::vector<BlockCounts> counts(chosen.size());
     parallel_chunks(chosen.size(), 1, [&](std::size_t s, std::size_t) {
         pool.with([&](BlockWorker& worker) {
             VoxelBlock out;
             counts[s] = worker.run(chosen[s], lists.of(s), progress, out);
-            if (visitor != nullptr) visitor->sample(bins.range().index(chosen[s]), out);
+            if (visitor != nullptr) visitor->sample(info, bins.range().index(chosen[s]), out);
         });
     });
     const double scale = surfaces ? static_cast<double>(blocks) / static_cast<double>(chosen.size())
@@ -281,11 +282,16 @@ void plan_memory(VoxelizePlan& plan, const VoxelizeContext& context, const Bins&
     const std::int64_t counts = bins.byte_count();
     const std::int64_t workers = thread_count() * BlockWorker::byte_count(context.fit);
     const VoxelGridFields& fields = plan.fields;
-    const std::int64_t result = plan.visitor_result_bytes +
-                                predict_block_bytes(plan.leaves, plan.voxels, plan.lobes, fields);
+    std::int64_t result = predict_block_bytes(plan.leaves, plan.voxels, plan.lobes, fields);
+    std::int64_t most_leaves = plan.leaves; // of a level: they are written one after the other
+    VoxelGridFields of_levels = fields;
+    of_levels.masks = false;
+    for (const LevelPlan& l : plan.levels) {
+        result += predict_block_bytes(l.leaves, l.voxels, l.lobes, of_levels);
+        most_leaves = std::max(most_leaves, l.leaves);
+    }
     const std::int64_t writer =
-        context.options.writer_bytes +
-        (plan.leaves + plan.visitor_leaves) * context.options.writer_bytes_per_leaf;
+        context.options.writer_bytes + most_leaves * context.options.writer_bytes_per_leaf;
     const auto entries = static_cast<std::int64_t>(bins.total_entries() * sizeof(Primitive));
 
     const auto peak = [&](std::int64_t kept, std::int64_t lists) {
@@ -350,7 +356,8 @@ VoxelizePlan plan_voxelize(const Geometry& geometry,
                             kSecondsPerHit * static_cast<double>(work.triangle_hits) +
                             kSecondsPerSample * static_cast<double>(work.surface_samples) +
                             kSecondsPerSurfaceVoxel * voxels;
-    plan.seconds = ((plan.steps > 0.0 ? fibers : 0.0) + (work.triangles > 0 ? surfaces : 0.0)) /
+    plan.seconds = ((plan.steps > 0.0 ? fibers : 0.0) + (work.triangles > 0 ? surfaces : 0.0) +
+                    plan.visitor_seconds) /
                    thread_count();
     plan_memory(plan, context, bins);
     return plan;

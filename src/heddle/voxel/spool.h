@@ -15,13 +15,10 @@ public:
     /// @param folder  of the file
     explicit SpooledGrid(const std::string& folder) : file_(folder) {}
 
-    VoxelGridInfo about;
-
     void resize(std::size_t blocks) { places_.resize(blocks); }
     /// Stores block i. One thread at a time.
     void store(std::size_t i, const VoxelBlock& block);
 
-    [[nodiscard]] const VoxelGridInfo& info() const override { return about; }
     [[nodiscard]] std::size_t block_count() const override { return places_.size(); }
     [[nodiscard]] const VoxelBlock& block(std::size_t i, VoxelBlock& scratch) const override;
 

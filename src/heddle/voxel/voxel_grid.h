@@ -192,11 +192,13 @@ struct VoxelGridInfo {
 class VoxelSource {
 public:
     virtual ~VoxelSource() = default;
-    [[nodiscard]] virtual const VoxelGridInfo& info() const = 0;
+    [[nodiscard]] const VoxelGridInfo& info() const { return about; }
     [[nodiscard]] virtual std::size_t block_count() const = 0;
     /// Block i, i < block_count(). The reference holds until the next call on the same `scratch`.
     /// Safe from several threads, each with a scratch of its own.
     [[nodiscard]] virtual const VoxelBlock& block(std::size_t i, VoxelBlock& scratch) const = 0;
+
+    VoxelGridInfo about;
 };
 
 /// The levels of an object, finest first. All but lattice, level and counts of their infos agree.
@@ -204,10 +206,8 @@ using VoxelLevels = std::vector<std::unique_ptr<VoxelSource>>;
 
 /// A VoxelSource in memory.
 struct VoxelGrid final : VoxelSource {
-    VoxelGridInfo about;
     std::vector<VoxelBlock> blocks;
 
-    [[nodiscard]] const VoxelGridInfo& info() const override { return about; }
     [[nodiscard]] std::size_t block_count() const override { return blocks.size(); }
     [[nodiscard]] const VoxelBlock& block(std::size_t i, VoxelBlock&) const override {
         return blocks[i];

@@ -1,70 +1,15 @@
 #include <heddle/voxel/voxelize.h>
 
 #include <heddle/base/parallel.h>
+#include <heddle/voxel/block_keeper.h>
 #include <heddle/voxel/block_worker.h>
-#include <heddle/voxel/spool.h>
 #include <heddle/voxel/z_order.h>
 
 #include <algorithm>
-#include <mutex>
 #include <numeric>
 
 namespace heddle {
 namespace {
-
-VoxelGridInfo info_of(const VoxelizeContext& context, const VoxelizePlan& plan) {
-    VoxelGridInfo info{.name = context.geometry.name,
-                       .lattice = plan.lattice,
-                       .max_lobes = context.options.max_lobes,
-                       .fields = context.fit.fields,
-                       .materials = context.geometry.materials,
-                       .yarns = context.geometry.yarns,
-                       .command = context.options.command};
-    for (YarnType& yarn : info.yarns) yarn.slice.texels.clear();
-    return info;
-}
-
-/// Where finished blocks go: memory, or a file.
-class Keeper {
-public:
-    Keeper(VoxelGridInfo info, std::size_t blocks, bool spool, const std::string& folder) {
-        if (spool) {
-            spooled_ = std::make_unique<SpooledGrid>(folder);
-            spooled_->about = std::move(info);
-            spooled_->resize(blocks);
-        } else {
-            grid_ = std::make_unique<VoxelGrid>();
-            grid_->about = std::move(info);
-            grid_->blocks.resize(blocks);
-        }
-    }
-
-    void keep(std::size_t i, VoxelBlock& block, const BlockCounts& counts) {
-        const std::scoped_lock lock(mutex_);
-        voxels_ += counts.voxels;
-        lobes_ += counts.lobes;
-        if (spooled_) {
-            spooled_->store(i, block);
-        } else {
-            grid_->blocks[i] = std::move(block);
-        }
-    }
-
-    std::unique_ptr<VoxelSource> finish() {
-        VoxelGridInfo& info = spooled_ ? spooled_->about : grid_->about;
-        info.voxel_count = voxels_;
-        info.lobe_count = lobes_;
-        if (spooled_) return std::move(spooled_);
-        return std::move(grid_);
-    }
-
-private:
-    std::mutex mutex_;
-    std::unique_ptr<VoxelGrid> grid_;
-    std::unique_ptr<SpooledGrid> spooled_;
-    std::int64_t voxels_ = 0;
-    std::int64_t lobes_ = 0;
-};
 
 /// The occupied blocks in Z-order: what is next to each other is done soon after each other.
 struct BlockOrder {
@@ -115,10 +60,10 @@ std::unique_ptr<VoxelSource> voxelize(const Geometry& geometry,
     const Bins bins(context.fibers, context.triangles, context.range, progress);
     const BlockOrder order(bins);
     const std::span<const std::uint32_t> blocks(order.block);
-    Keeper keeper(info_of(context, plan), blocks.size(), plan.spool, options.spool_dir);
+    BlockKeeper keeper(context.info(), blocks.size(), plan.spool, options.spool_dir);
     if (visitor != nullptr) {
         context.fit.fields.masks = true;
-        visitor->begin(order.index);
+        visitor->begin(context.info(), order.index, plan.spool ? options.spool_dir : "");
     }
     WorkerPool pool(context);
     progress.begin("voxelize", "primitives", static_cast<std::int64_t>(bins.total_entries()));
@@ -136,14 +81,12 @@ std::unique_ptr<VoxelSource> voxelize(const Geometry& geometry,
             progress.check();
             const std::span<const Primitive> primitives = lists.of(sorted.place[i]);
             VoxelBlock out;
-            BlockCounts counts;
             pool.with([&](BlockWorker& worker) {
-                counts = worker.run(blocks[begin + i], primitives, progress, out);
+                worker.run(blocks[begin + i], primitives, progress, out);
             });
             if (visitor != nullptr) visitor->visit(begin + i, out);
             if (!options.keep_sums) drop_sums(out);
-            out.shrink_to_fit();
-            keeper.keep(begin + i, out, counts);
+            keeper.keep(begin + i, out);
             progress.advance(static_cast<std::int64_t>(primitives.size()));
         });
         begin = end;

@@ -44,25 +44,36 @@ struct VoxelizeOptions {
 struct VoxelizePlan;
 
 /// Sees each finished block while its sums are at hand: how coarser levels are built in one pass.
-/// Called from several threads at once.
 class BlockVisitor {
 public:
     virtual ~BlockVisitor() = default;
 
-    /// The blocks that visit() will be called for, once each, in about this order: neighbours follow
-    /// each other (Z-order). Called once before the first.
-    /// @param index  of each block: its voxels are index * kBlockVoxels and on
-    virtual void begin(std::span<const Vec3i> index) = 0;
+    /// Called once before the first visit().
+    /// @param info       of level 0, counts unknown
+    /// @param blocks     that visit() will be called for, once each, in about this order: neighbours
+    ///                   follow each other (voxel/z_order.h). Block i has voxels i * kBlockVoxels and on
+    /// @param spool_dir  where finished data go in a temporary file; empty: they stay in memory
+    virtual void begin(const VoxelGridInfo& info,
+                       std::span<const Vec3i> blocks,
+                       const std::string& spool_dir) = 0;
+    /// Called from several threads at once.
     /// @param rank   of the block in begin()'s list
-    /// @param block  with columns and sums; may be empty
-    virtual void visit(std::size_t rank, const VoxelBlock& block) = 0;
+    /// @param block  with columns and sums; may be empty. Its optional arrays may be filled
+    virtual void visit(std::size_t rank, VoxelBlock& block) = 0;
 
-    /// One of the blocks that the planner voxelizes to see what they cost.
-    virtual void sample(Vec3i index, const VoxelBlock& block) = 0;
-    /// Adds to the plan what the visitor will hold (bytes, time), after the samples.
+    /// One of the blocks that the planner voxelizes to see what they cost; from several threads.
+    virtual void sample(const VoxelGridInfo& info, const Vec3i& index, VoxelBlock& block) = 0;
+    /// Adds to the plan what the visitor will hold, after the samples.
     /// @param blocks  all
     /// @param scale   how many voxels stand for one of the samples'
     virtual void plan(std::span<const Vec3i> blocks, double scale, VoxelizePlan& plan) = 0;
+};
+
+/// What a level above 0 will hold.
+struct LevelPlan {
+    std::int64_t leaves = 0; ///< of 8^3 voxels
+    std::int64_t voxels = 0;
+    std::int64_t lobes = 0;
 };
 
 /// What the voxelizer would do, and what it would cost.
@@ -85,11 +96,10 @@ struct VoxelizePlan {
     std::int64_t leaves = 0;
     std::int64_t touched_subvoxels = 0;
     std::int64_t peak_bytes = 0;    ///< predicted peak resident size, the caller's share included
-    std::int64_t visitor_bytes = 0; ///< of the peak: what a BlockVisitor holds
-    std::int64_t visitor_result_bytes = 0; ///< what it adds to the result, spooled with it
-    std::int64_t visitor_file_bytes = 0;   ///< and to the file
-    std::int64_t visitor_leaves = 0;       ///< of 8^3 voxels, in all its levels together
-    bool spool = false;                    ///< finished blocks wait in a temporary file
+    std::vector<LevelPlan> levels;  ///< above level 0, as a BlockVisitor plans them
+    std::int64_t visitor_bytes = 0; ///< what it holds while it works, of the peak
+    double visitor_seconds = 0.0;   ///< CPU time it takes, of `seconds`
+    bool spool = false;             ///< finished blocks wait in a temporary file
     double seconds =
         0.0; ///< predicted, on `thread_count()` threads of the machine that was measured
 };

@@ -1,0 +1,366 @@
+#include <heddle/lod/build_levels.h>
+
+#include <heddle/base/error.h>
+#include <heddle/base/parallel.h>
+#include <heddle/lod/join_pieces.h>
+#include <heddle/lod/upper_levels.h>
+#include <heddle/voxel/block_keeper.h>
+
+#include <algorithm>
+#include <limits>
+#include <mutex>
+#include <set>
+#include <tuple>
+
+namespace heddle {
+namespace {
+
+/// Levels whose voxels fill whole leaves out of one block.
+constexpr int kWholeLeafLevel = 2;
+
+/// CPU time a voxel of level 0 costs its levels, seconds: measured on the sweater, 1024 voxels.
+constexpr double kSecondsPerVoxel = 6e-7;
+
+CoverageRule rule_of(LodMethod method, bool with_columns) {
+    if (method == LodMethod::Naive) return CoverageRule::Mean;
+    return with_columns ? CoverageRule::Union : CoverageRule::Product;
+}
+
+LevelOptions
+level_options(const LodOptions& options, const VoxelGridInfo& info, bool with_columns) {
+    LevelOptions out;
+    out.fields = info.fields;
+    out.fields.masks = false;
+    out.fields.footprints = with_columns ? options.footprints : 0;
+    out.merge = {.method = options.method,
+                 .max_lobes = options.max_lobes > 0 ? options.max_lobes : info.max_lobes,
+                 .with_maps = info.fields.map_sums()};
+    out.coverage = rule_of(options.method, with_columns);
+    out.lattice = info.lattice;
+    out.seed = options.seed;
+    for (std::size_t m = 0; m < info.materials.size() && m < out.normals.size(); ++m) {
+        out.normals[m] = info.materials[m].kind == MaterialKind::Surface;
+    }
+    return out;
+}
+
+/// First and last voxel that is there.
+struct VoxelBox {
+    Vec3i lo{std::numeric_limits<int>::max(), std::numeric_limits<int>::max(),
+             std::numeric_limits<int>::max()};
+    Vec3i hi{std::numeric_limits<int>::min(), std::numeric_limits<int>::min(),
+             std::numeric_limits<int>::min()};
+
+    void grow(Vec3i a, Vec3i b) {
+        for (int k = 0; k < 3; ++k) {
+            lo[k] = std::min(lo[k], a[k]);
+            hi[k] = std::max(hi[k], b[k]);
+        }
+    }
+    void grow(const OpenLevel& level) {
+        const int n = level.edge();
+        for (int x = 0; x < n; ++x) {
+            for (int y = 0; y < n; ++y) {
+                for (int z = 0; z < n; ++z) {
+                    if (level.slot[level.cell({x, y, z})] == OpenLevel::kNone) continue;
+                    const Vec3i at = level.origin + Vec3i{x, y, z};
+                    grow(at, at);
+                }
+            }
+        }
+    }
+};
+
+/// What one thread works with, kept from block to block.
+struct Workspace {
+    std::array<OpenLevel, kBlockLevel + 1> level;
+    LobePool pool;
+    RecentFits fits;
+
+    /// Builds levels 0 to `top` of a block.
+    void build(const VoxelBlock& block, Vec3i index, int top, const LevelOptions& options) {
+        open_block(block, index, options, level[0]);
+        for (int l = 1; l <= top; ++l) {
+            OpenLevel& here = level[static_cast<std::size_t>(l)];
+            here.reset(l, index);
+            build_level(level[static_cast<std::size_t>(l - 1)], options, pool, here);
+        }
+    }
+    [[nodiscard]] std::int64_t byte_count() const {
+        std::size_t sum = sizeof(*this);
+        for (const OpenLevel& l : level) {
+            sum += l.slot.capacity() * sizeof(std::uint16_t) +
+                   l.voxels.capacity() * sizeof(OpenVoxel) +
+                   l.columns.capacity() * sizeof(std::uint64_t) +
+                   l.lobes.capacity() * sizeof(DirectionSums) + l.maps.capacity() * sizeof(MapSums);
+        }
+        return static_cast<std::int64_t>(sum);
+    }
+};
+
+/// Lends workspaces to whichever thread asks.
+class Workspaces {
+public:
+    template <typename Body>
+    void with(const Body& body) {
+        std::unique_ptr<Workspace> mine;
+        {
+            const std::scoped_lock lock(mutex_);
+            if (!idle_.empty()) {
+                mine = std::move(idle_.back());
+                idle_.pop_back();
+            }
+        }
+        if (!mine) mine = std::make_unique<Workspace>();
+        body(*mine);
+        const std::scoped_lock lock(mutex_);
+        idle_.push_back(std::move(mine));
+    }
+
+private:
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<Workspace>> idle_;
+};
+
+/// Level-0 footprints of a block's voxels.
+void add_footprints(const OpenLevel& level, const LevelOptions& options, VoxelBlock& block) {
+    // voxels of the open level stand in the block's order
+    for (std::size_t v = 0; v < level.voxels.size(); ++v)
+        append_footprints(level, v, options, block);
+}
+
+std::unique_ptr<VoxelGrid> make_grid(const VoxelGridInfo& info, std::vector<VoxelBlock> blocks) {
+    auto grid = std::make_unique<VoxelGrid>();
+    grid->about = info;
+    grid->about.voxel_count = 0;
+    grid->about.lobe_count = 0;
+    for (const VoxelBlock& b : blocks) {
+        grid->about.voxel_count += static_cast<std::int64_t>(b.coverage.size());
+        grid->about.lobe_count += static_cast<std::int64_t>(b.lobes.size());
+    }
+    grid->blocks = std::move(blocks);
+    return grid;
+}
+
+std::int64_t count_leaves(const OpenLevel& level) {
+    const int n = level.edge();
+    std::array<bool, 64> there{};
+    for (int i = 0; i < n * n * n; ++i) {
+        if (level.slot[static_cast<std::size_t>(i)] == OpenLevel::kNone) continue;
+        there[static_cast<std::size_t>(((i / (n * n)) >> 3) * 16 + ((i / n % n) >> 3) * 4 +
+                                       ((i % n) >> 3))] = true;
+    }
+    return std::count(there.begin(), there.end(), true);
+}
+
+/// Different cells of 2^shift blocks that hold a block.
+std::int64_t count_cells(std::span<const Vec3i> blocks, int shift) {
+    std::set<std::tuple<int, int, int>> cells;
+    for (const Vec3i& b : blocks) cells.emplace(b.x >> shift, b.y >> shift, b.z >> shift);
+    return static_cast<std::int64_t>(cells.size());
+}
+
+/// Different rows of blocks along each axis: the silhouettes that columns of large voxels hold.
+std::int64_t count_rows(std::span<const Vec3i> blocks) {
+    std::int64_t sum = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        std::set<std::pair<int, int>> rows;
+        for (const Vec3i& b : blocks) rows.emplace(b[axis == 0 ? 1 : 0], b[axis == 2 ? 1 : 2]);
+        sum += static_cast<std::int64_t>(rows.size());
+    }
+    return sum;
+}
+
+} // namespace
+
+int level_count(Vec3i lo, Vec3i hi) {
+    int level = 0;
+    const auto wide = [&](int a) { return (hi[a] >> level) - (lo[a] >> level) + 1 > 2; };
+    while (level < kMaxLevel && (wide(0) || wide(1) || wide(2))) ++level;
+    return level;
+}
+
+struct LevelBuilder::State {
+    VoxelGridInfo info;
+    LevelOptions options;
+    int top = 0; ///< coarsest level that is built, as far as blocks can tell
+    std::vector<Vec3i> blocks;
+    std::vector<std::unique_ptr<BlockKeeper>> whole; ///< levels 1 to kWholeLeafLevel
+    std::vector<std::vector<VoxelBlock>> pieces;     ///< the levels above, from kWholeLeafLevel + 1
+    std::unique_ptr<UpperLevels> upper;
+    Workspaces workspaces;
+    std::mutex mutex;
+    VoxelBox box;
+
+    void store(int level, std::size_t number, VoxelBlock& block) {
+        if (level <= kWholeLeafLevel) {
+            whole[static_cast<std::size_t>(level - 1)]->keep(number, block);
+        } else {
+            block.shrink_to_fit();
+            pieces[static_cast<std::size_t>(level - kWholeLeafLevel - 1)][number] =
+                std::move(block);
+        }
+    }
+};
+
+struct LevelBuilder::Sample {
+    std::mutex mutex;
+    Workspaces workspaces;
+    std::array<LevelPlan, kBlockLevel> level; ///< 1 to kBlockLevel
+    std::int64_t workspace_bytes = 0;         ///< the largest
+};
+
+LevelBuilder::LevelBuilder(const LodOptions& options)
+    : options_(options), sample_(std::make_unique<Sample>()) {
+    if (options.max_lobes < 0 || options.max_lobes > kMaxLobes) {
+        throw Error(ErrorCode::InvalidArgument, str("lod: lobes is ", options.max_lobes),
+                    str("use 1 to ", kMaxLobes));
+    }
+    if (options.footprints != 0 && options.footprints != 4 && options.footprints != 8) {
+        throw Error(ErrorCode::InvalidArgument, str("lod: footprints is ", options.footprints),
+                    "use 4 or 8");
+    }
+    if (options.footprints != 0 && options.method == LodMethod::Naive) {
+        throw Error(ErrorCode::InvalidArgument,
+                    "lod: 'naive' averages coverage: it has no footprints",
+                    "use another method, or no footprints");
+    }
+}
+
+LevelBuilder::~LevelBuilder() = default;
+
+void LevelBuilder::begin(const VoxelGridInfo& info,
+                         std::span<const Vec3i> blocks,
+                         const std::string& spool_dir) {
+    state_ = std::make_unique<State>();
+    State& s = *state_;
+    s.info = info;
+    s.options = level_options(options_, info, true);
+    s.blocks.assign(blocks.begin(), blocks.end());
+    VoxelBox box;
+    for (const Vec3i& b : blocks) {
+        box.grow(b * kBlockVoxels, b * kBlockVoxels + Vec3i{31, 31, 31});
+    }
+    s.top = blocks.empty() ? 0 : std::min(options_.max_levels, level_count(box.lo, box.hi));
+    for (int l = 1; l <= s.top; ++l) {
+        if (l <= kWholeLeafLevel) {
+            VoxelGridInfo of = info;
+            of.fields = s.options.fields;
+            s.whole.push_back(
+                std::make_unique<BlockKeeper>(of, blocks.size(), !spool_dir.empty(), spool_dir));
+        } else if (l <= kBlockLevel) {
+            s.pieces.emplace_back(blocks.size());
+        }
+    }
+    s.upper = std::make_unique<UpperLevels>(
+        blocks, s.top, s.options,
+        [&s](int level, std::size_t number, VoxelBlock& block) { s.store(level, number, block); });
+    for (int l = kBlockLevel + 1; l <= s.top; ++l) s.pieces.emplace_back(s.upper->count(l));
+}
+
+void LevelBuilder::visit(std::size_t rank, VoxelBlock& block) {
+    State& s = *state_;
+    std::unique_ptr<UpperVoxel> top;
+    s.workspaces.with([&](Workspace& work) {
+        const int last = std::min(s.top, kBlockLevel);
+        work.build(block, s.blocks[rank], last, s.options);
+        if (s.options.fields.footprints != 0) add_footprints(work.level[0], s.options, block);
+        for (int l = 1; l <= last; ++l) {
+            VoxelBlock stored;
+            store_level(work.level[static_cast<std::size_t>(l)], s.options, work.pool, work.fits,
+                        stored);
+            s.store(l, rank, stored);
+        }
+        if (s.top > kBlockLevel) top = take_upper(work.level[kBlockLevel]);
+        VoxelBox box;
+        box.grow(work.level[0]);
+        const std::scoped_lock lock(s.mutex);
+        if (!work.level[0].voxels.empty()) s.box.grow(box.lo, box.hi);
+    });
+    s.upper->take(rank, std::move(top));
+}
+
+VoxelLevels LevelBuilder::finish(std::unique_ptr<VoxelSource> level0) {
+    State& s = *state_;
+    VoxelLevels levels;
+    levels.push_back(std::move(level0));
+    const int needed = s.box.lo.x > s.box.hi.x ? 0 : level_count(s.box.lo, s.box.hi);
+    const int top = std::min(s.top, needed);
+    for (int l = 1; l <= top; ++l) {
+        std::unique_ptr<VoxelSource> made;
+        if (l <= kWholeLeafLevel) {
+            made = s.whole[static_cast<std::size_t>(l - 1)]->finish();
+        } else {
+            const auto at = static_cast<std::size_t>(l - kWholeLeafLevel - 1);
+            made = make_grid(s.info, join_pieces(std::move(s.pieces[at])));
+        }
+        levels.push_back(std::move(made));
+    }
+    for (std::size_t l = 0; l < levels.size(); ++l) {
+        VoxelGridInfo& info = levels[l]->about;
+        info.level = static_cast<std::int32_t>(l);
+        info.lattice = lattice_of_level(s.info.lattice, static_cast<int>(l));
+        info.lod = top > 0 ? name_of(options_.method) : "";
+        if (l > 0) info.fields = s.options.fields;
+        info.fields.footprints = s.options.fields.footprints;
+        info.max_lobes = l > 0 ? s.options.merge.max_lobes : info.max_lobes;
+    }
+    return levels;
+}
+
+void LevelBuilder::sample(const VoxelGridInfo& info, const Vec3i& index, VoxelBlock& block) {
+    const LevelOptions options = level_options(options_, info, true);
+    sample_->workspaces.with([&](Workspace& work) {
+        const int last = std::min(options_.max_levels, kBlockLevel);
+        work.build(block, index, last, options);
+        const std::scoped_lock lock(sample_->mutex);
+        for (int l = 1; l <= last; ++l) {
+            LevelPlan& plan = sample_->level[static_cast<std::size_t>(l - 1)];
+            const OpenLevel& level = work.level[static_cast<std::size_t>(l)];
+            plan.voxels += static_cast<std::int64_t>(level.voxels.size());
+            plan.lobes += static_cast<std::int64_t>(level.lobes.size());
+            plan.leaves += count_leaves(level);
+        }
+        sample_->workspace_bytes = std::max(sample_->workspace_bytes, work.byte_count());
+    });
+}
+
+void LevelBuilder::plan(std::span<const Vec3i> blocks, double scale, VoxelizePlan& plan) {
+    const int top =
+        std::min(options_.max_levels, level_count(plan.voxel_lo, plan.voxel_hi - Vec3i{1, 1, 1}));
+    const auto scaled = [&](std::int64_t n) {
+        return static_cast<std::int64_t>(static_cast<double>(n) * scale + 0.5);
+    };
+    double lobes_per_voxel = 1.0;
+    for (int l = 1; l <= top; ++l) {
+        LevelPlan& level = plan.levels.emplace_back();
+        if (l <= kBlockLevel) {
+            const LevelPlan& seen = sample_->level[static_cast<std::size_t>(l - 1)];
+            level = {scaled(seen.leaves), scaled(seen.voxels), scaled(seen.lobes)};
+            if (seen.voxels > 0) {
+                lobes_per_voxel =
+                    static_cast<double>(seen.lobes) / static_cast<double>(seen.voxels);
+            }
+        } else {
+            level.voxels = count_cells(blocks, l - kBlockLevel);
+            level.lobes =
+                static_cast<std::int64_t>(static_cast<double>(level.voxels) * lobes_per_voxel);
+        }
+        if (l > kWholeLeafLevel) level.leaves = count_cells(blocks, l - kWholeLeafLevel);
+    }
+    // pieces of leaves, nodes that wait, and the columns of the voxels that are open: two a level
+    constexpr std::int64_t kPieceBytes = 700;
+    const std::int64_t rows = count_rows(blocks);
+    std::int64_t runs = 0;
+    for (int l = kBlockLevel; l <= top; ++l) {
+        const std::int64_t whole = std::int64_t{3} << (2 * std::min(l - kBlockLevel, 20));
+        runs += 2 * std::min(whole, rows);
+    }
+    const auto count = static_cast<std::int64_t>(blocks.size());
+    plan.visitor_bytes = thread_count() * sample_->workspace_bytes +
+                         runs * static_cast<std::int64_t>(sizeof(UpperVoxel::Run::element_type)) +
+                         count * kPieceBytes * std::clamp(top - kWholeLeafLevel, 0, 4);
+    plan.visitor_seconds = top > 0 ? kSecondsPerVoxel * static_cast<double>(plan.voxels) : 0.0;
+}
+
+} // namespace heddle

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <heddle/base/progress.h>
+#include <heddle/lod/method.h>
+#include <heddle/voxel/voxelize.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace heddle {
+
+/// Coarsest level that is ever built: 2^24 voxels of level 0 along each axis.
+inline constexpr int kMaxLevel = 24;
+
+/// What the user asks of the levels of detail. Nothing is required.
+struct LodOptions {
+    LodMethod method = LodMethod::Moments;
+    int max_levels = kMaxLevel;  ///< above level 0, at most; 0: none
+    int max_lobes = 0;           ///< K, 1 to 8; 0: as level 0 has
+    std::int32_t footprints = 0; ///< cells per axis of a face that are kept: 0, 4 or 8
+    std::uint64_t seed = 0;      ///< of the methods `random` and `wasserstein`
+};
+
+/// Levels above 0 that an object has: until at most two voxels per axis are left.
+/// @param lo, hi  its first and last voxel of level 0, inclusive
+[[nodiscard]] int level_count(Vec3i lo, Vec3i hi);
+
+/// Builds the levels of detail over blocks of level 0, in one pass over them and in any order.
+///
+/// A block's levels 1 to 5 are built at once when the block is there, the levels above when the last
+/// child of a voxel is. Sums are integers and children are taken in a fixed order: threads do not show,
+/// nor does a region in the voxels whose children it holds.              [docs/lod.md]
+class LevelBuilder final : public BlockVisitor {
+public:
+    explicit LevelBuilder(const LodOptions& options);
+    ~LevelBuilder() override;
+    LevelBuilder(const LevelBuilder&) = delete;
+    LevelBuilder& operator=(const LevelBuilder&) = delete;
+
+    void begin(const VoxelGridInfo& info,
+               std::span<const Vec3i> blocks,
+               const std::string& spool_dir) override;
+    void visit(std::size_t rank, VoxelBlock& block) override;
+    void sample(const VoxelGridInfo& info, const Vec3i& index, VoxelBlock& block) override;
+    void plan(std::span<const Vec3i> blocks, double scale, VoxelizePlan& plan) override;
+
+    /// The levels above 0, after the last visit.
+    /// @param level0  the blocks that were visited; takes the name of the method
+    /// @return        level 0 and those above it
+    [[nodiscard]] VoxelLevels finish(std::unique_ptr<VoxelSource> level0);
+
+private:
+    struct State;
+    struct Sample;
+    LodOptions options_;
+    std::unique_ptr<State> state_;
+    std::unique_ptr<Sample> sample_;
+};
+
+} // namespace heddle

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <heddle/voxel/spool.h>
+#include <heddle/voxel/voxel_grid.h>
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+
+namespace heddle {
+
+/// Where finished blocks go, from several threads: memory, or a temporary file.
+class BlockKeeper {
+public:
+    /// @param folder  of the file
+    BlockKeeper(VoxelGridInfo info, std::size_t blocks, bool spool, const std::string& folder) {
+        if (spool) {
+            spooled_ = std::make_unique<SpooledGrid>(folder);
+            spooled_->about = std::move(info);
+            spooled_->resize(blocks);
+        } else {
+            grid_ = std::make_unique<VoxelGrid>();
+            grid_->about = std::move(info);
+            grid_->blocks.resize(blocks);
+        }
+    }
+
+    /// Keeps block i; what is left in `block` has no meaning.
+    void keep(std::size_t i, VoxelBlock& block) {
+        block.shrink_to_fit();
+        const std::scoped_lock lock(mutex_);
+        voxels_ += static_cast<std::int64_t>(block.coverage.size());
+        lobes_ += static_cast<std::int64_t>(block.lobes.size());
+        if (spooled_) {
+            spooled_->store(i, block);
+        } else {
+            grid_->blocks[i] = std::move(block);
+        }
+    }
+
+    [[nodiscard]] std::unique_ptr<VoxelSource> finish() {
+        VoxelGridInfo& info = spooled_ ? spooled_->about : grid_->about;
+        info.voxel_count = voxels_;
+        info.lobe_count = lobes_;
+        if (spooled_) return std::move(spooled_);
+        return std::move(grid_);
+    }
+
+private:
+    std::mutex mutex_;
+    std::unique_ptr<VoxelGrid> grid_;
+    std::unique_ptr<SpooledGrid> spooled_;
+    std::int64_t voxels_ = 0;
+    std::int64_t lobes_ = 0;
+};
+
+} // namespace heddle
