@@ -5,123 +5,168 @@
 #include <heddle/sggx/packed.h>
 #include <heddle/sggx/sggx.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 
 namespace heddle {
 
-/// Smallest determinant of the correlations, times 255^3, that `pack` gives. Their smallest
-/// eigenvalue is then above 2.6e-5, 400 float roundings: float algebra on the decoded S stays
-/// definite. It is free: no bound from 2 to 1700 changes a measured error. The narrowest diagonal
-/// needle (all r = 253/255) has 3064.
-inline constexpr std::int32_t kMinPackedDeterminant = 1000;
+/// The correlation r that a byte stands for is the cosine of its angle: 254 steps from r = -1 to 1.
+inline constexpr std::int32_t kAngleSteps = 254;
 
 namespace detail {
 
-/// 255 r: an odd number in -255 .. 255.
-[[nodiscard]] HEDDLE_HD constexpr std::int32_t correlation255(std::int32_t byte) {
-    return 2 * byte - 255;
+/// cos of 0 .. pi / 4 to a double's rounding.
+[[nodiscard]] constexpr double cosine_series(double x) {
+    double term = 1.0;
+    double sum = 1.0;
+    for (int k = 1; k < 12; ++k) {
+        term *= -x * x / ((2.0 * k - 1.0) * (2.0 * k));
+        sum += term;
+    }
+    return sum;
 }
 
-/// 255^3 times the determinant of the matrix of correlations; exact.
-[[nodiscard]] HEDDLE_HD constexpr std::int32_t
-correlation_determinant(std::int32_t byte_xy, std::int32_t byte_xz, std::int32_t byte_yz) {
-    const std::int32_t xy = correlation255(byte_xy);
-    const std::int32_t xz = correlation255(byte_xz);
-    const std::int32_t yz = correlation255(byte_yz);
-    // at most 5 x 255^3 = 8.3e7 in any partial sum
-    return 255 * 255 * 255 + 2 * xy * xz * yz - 255 * (xy * xy + xz * xz + yz * yz);
+[[nodiscard]] constexpr double sine_series(double x) {
+    double term = x;
+    double sum = x;
+    for (int k = 1; k < 12; ++k) {
+        term *= -x * x / ((2.0 * k) * (2.0 * k + 1.0));
+        sum += term;
+    }
+    return sum;
 }
 
-/// floor(x), kept in 1 .. `most`; NaN gives 1.
-[[nodiscard]] HEDDLE_HD constexpr std::int32_t to_byte(float x, std::int32_t most) {
-    return x >= 1.0f ? (x < static_cast<float>(most) ? static_cast<std::int32_t>(x) : most) : 1;
+/// cos(pi k / kAngleSteps), k = 0 .. kAngleSteps; 1, 0 and -1 exactly, and odd about the middle.
+[[nodiscard]] constexpr std::array<float, kAngleSteps + 1> make_cosines() {
+    std::array<float, kAngleSteps + 1> table{};
+    constexpr double kStep = 3.141592653589793 / kAngleSteps;
+    for (int k = 0; 2 * k <= kAngleSteps; ++k) {
+        const double x = kStep * k;
+        const double y = kStep * (kAngleSteps / 2 - k);
+        const auto c = static_cast<float>(4 * k <= kAngleSteps ? cosine_series(x) : sine_series(y));
+        table[static_cast<std::size_t>(k)] = c;
+        table[static_cast<std::size_t>(kAngleSteps - k)] = -c;
+    }
+    return table;
 }
 
-/// A correlation's two neighbouring bytes, of 1 .. 254.
-struct Neighbours {
-    std::int32_t nearest, other;
-    float extra; ///< what the other adds to the squared error in S
+/// The correlation of angle k, in steps.
+[[nodiscard]] HEDDLE_HD inline float cosine_of(std::int32_t k) {
+    static constexpr std::array<float, kAngleSteps + 1> kCosine = make_cosines();
+    return kCosine[static_cast<std::size_t>(k)];
+}
+
+/// Angle in steps of a correlation byte: the larger the byte, the larger r.
+[[nodiscard]] HEDDLE_HD constexpr std::int32_t angle_of(std::int32_t byte) {
+    return kAngleSteps - byte;
+}
+
+/// The largest k with cosine_of(k) >= r, of 1 .. kAngleSteps - 2: its r and the next one's enclose r.
+[[nodiscard]] HEDDLE_HD inline std::int32_t floor_angle(float r) {
+    const float x = r < 0.0f ? -r : r;
+    // acos to 7e-5 [Abramowitz and Stegun 4.4.45], .006 of a step
+    const float root = std::sqrt(x < 1.0f ? 1.0f - x : 0.0f);
+    const float angle = root * (1.5707288f + x * (-0.2121144f + x * (0.0742610f - 0.0187293f * x)));
+    const float steps = angle * (static_cast<float>(kAngleSteps) * 0.31830987f);
+    const float at = r < 0.0f ? static_cast<float>(kAngleSteps) - steps : steps;
+    std::int32_t k = at > 1.0f ? static_cast<std::int32_t>(at) : 1; // NaN gives 1
+    k = k < kAngleSteps - 2 ? k : kAngleSteps - 2;
+    if (k > 1 && cosine_of(k) < r) --k;
+    if (k < kAngleSteps - 2 && cosine_of(k + 1) >= r) ++k;
+    return k;
+}
+
+/// True if the correlations of three angles, in steps, are those of a positive definite matrix: the
+/// angles are those between three vectors that lie in no plane.
+[[nodiscard]] HEDDLE_HD constexpr bool
+is_definite(std::int32_t xy, std::int32_t xz, std::int32_t yz) {
+    return xy < xz + yz && xz < xy + yz && yz < xy + xz && xy + xz + yz < 2 * kAngleSteps;
+}
+
+/// Two neighbouring angles and their squared errors in S.
+struct AnglePair {
+    std::int32_t lower;
+    float error[2];
 };
 
-/// @param r       in byte steps: 127.5 (1 + correlation)
-/// @param weight  of its squared error
-[[nodiscard]] HEDDLE_HD constexpr Neighbours neighbours(float r, float weight) {
-    const std::int32_t nearest = to_byte(r + 0.5f, 254);
-    const float error = r - static_cast<float>(nearest);
-    const std::int32_t next = nearest + (error < 0.0f ? -1 : 1);
-    const std::int32_t other = next < 1 ? 1 : next > 254 ? 254 : next;
-    const float other_error = r - static_cast<float>(other);
-    return {nearest, other, weight * (other_error * other_error - error * error)};
+/// @param product  of the two sigmas: weighs the error
+/// @param shift    0: the angles around r; -1: one step less
+[[nodiscard]] HEDDLE_HD inline AnglePair angle_pair(float r, float product, std::int32_t shift) {
+    const std::int32_t k = floor_angle(r) + shift;
+    AnglePair p{k > 1 ? k : 1, {}};
+    for (int i = 0; i < 2; ++i) {
+        const float e = product * (r - cosine_of(p.lower + i));
+        p.error[i] = e * e;
+    }
+    return p;
 }
 
-/// Stores the bytes if they are definite with the margin of kMinPackedDeterminant.
-[[nodiscard]] HEDDLE_HD constexpr bool
-store_if_definite(std::int32_t xy, std::int32_t xz, std::int32_t yz, PackedSggx& out) {
-    if (correlation_determinant(xy, xz, yz) < kMinPackedDeterminant) return false;
-    out.r[0] = static_cast<std::uint8_t>(xy);
-    out.r[1] = static_cast<std::uint8_t>(xz);
-    out.r[2] = static_cast<std::uint8_t>(yz);
-    return true;
-}
-
-/// Stores, of the 8 choices of neighbours, the definite one with the least squared error in S.
+/// Stores, of the 8 choices of neighbouring angles, the definite one with the least squared error in S.
 ///
-/// @return  false if none of the 8 is definite; `out` is then unchanged
-[[nodiscard]] HEDDLE_HD constexpr bool
-store_best_neighbours(Vec3f r, Vec3f weight, PackedSggx& out) {
-    const Neighbours x = neighbours(r.x, weight.x);
-    const Neighbours y = neighbours(r.y, weight.y);
-    const Neighbours z = neighbours(r.z, weight.z);
+/// @return  false if none is
+[[nodiscard]] HEDDLE_HD inline bool
+store_angles(Vec3f r, Vec3f product, std::int32_t shift, PackedSggx& out) {
+    const AnglePair x = angle_pair(r.x, product.x, shift);
+    const AnglePair y = angle_pair(r.y, product.y, shift);
+    const AnglePair z = angle_pair(r.z, product.z, shift);
     bool found = false;
     float least = 0.0f;
     for (int choice = 0; choice < 8; ++choice) {
-        const bool fx = (choice & 1) != 0;
-        const bool fy = (choice & 2) != 0;
-        const bool fz = (choice & 4) != 0;
-        const float error = (fx ? x.extra : 0.0f) + (fy ? y.extra : 0.0f) + (fz ? z.extra : 0.0f);
+        const int i = choice & 1;
+        const int j = choice >> 1 & 1;
+        const int k = choice >> 2;
+        const float error = x.error[i] + y.error[j] + z.error[k];
         if (found && !(error < least)) continue;
-        if (!store_if_definite(fx ? x.other : x.nearest, fy ? y.other : y.nearest,
-                               fz ? z.other : z.nearest, out)) {
-            continue;
-        }
+        if (!is_definite(x.lower + i, y.lower + j, z.lower + k)) continue;
         found = true;
         least = error;
+        out.r[0] = static_cast<std::uint8_t>(angle_of(x.lower + i));
+        out.r[1] = static_cast<std::uint8_t>(angle_of(y.lower + j));
+        out.r[2] = static_cast<std::uint8_t>(angle_of(z.lower + k));
     }
     return found;
 }
 
-/// sqrt(x) of a diagonal entry, and the byte it is stored as.
+/// The same around r, or one step below where r stands on a corner of the angles' lattice that is
+/// singular. False only where S was not semi-definite.
+[[nodiscard]] HEDDLE_HD inline bool store_correlations(Vec3f r, Vec3f product, PackedSggx& out) {
+    return store_angles(r, product, 0, out) || store_angles(r, product, -1, out);
+}
+
+/// sqrt(x) of a diagonal entry, and the byte it is stored as: 1 to 255; NaN gives 1.
 [[nodiscard]] HEDDLE_HD inline float pack_sigma(float square, std::uint8_t& byte) {
     const float sigma = std::sqrt(square > 0.0f ? square : 0.0f);
-    byte = static_cast<std::uint8_t>(to_byte(255.0f * sigma + 0.5f, 255));
+    const float x = 255.0f * sigma + 0.5f;
+    byte = static_cast<std::uint8_t>(x >= 1.0f ? (x < 255.0f ? x : 255.0f) : 1.0f);
     return sigma;
 }
 
-/// Correlation in byte steps.
-[[nodiscard]] HEDDLE_HD constexpr float scale_correlation(float product, float sigmas) {
-    return sigmas > 0.0f ? 127.5f + 127.5f * (product / sigmas) : 127.5f;
+[[nodiscard]] HEDDLE_HD constexpr float correlation(float covariance, float sigmas) {
+    return sigmas > 0.0f ? covariance / sigmas : 0.0f;
 }
 
 } // namespace detail
 
 /// True if `p` decodes to a positive definite matrix; exact, for any 6 bytes.
 ///
-/// S = D C D with D = diag(sigma) and C the correlations: no sigma is 0, no |r| is 1, |C| > 0.
+/// S = D C D with D = diag(sigma) and C the correlations: no sigma is 0, and C's angles are those of a
+/// triangle on the sphere.
 [[nodiscard]] HEDDLE_HD constexpr bool is_positive_definite(const PackedSggx& p) {
     for (int i = 0; i < 3; ++i) {
-        if (p.sigma[i] == 0 || p.r[i] == 0 || p.r[i] == 255) return false;
+        if (p.sigma[i] == 0 || p.r[i] > kAngleSteps) return false;
     }
-    return detail::correlation_determinant(p.r[0], p.r[1], p.r[2]) > 0;
+    return detail::is_definite(detail::angle_of(p.r[0]), detail::angle_of(p.r[1]),
+                               detail::angle_of(p.r[2]));
 }
 
 /// Packs S into 6 bytes that decode positive definite, whatever S is.
 ///
 /// sigma_x = sqrt(S_xx), r_xy = S_xy / (sigma_x sigma_y)                      [Fabre26, eq. 17]
-/// Each is rounded to the nearest byte, sigma to 1 or more, r to 1 .. 254. Where that is not
-/// definite: of the 8 choices of upper and lower neighbours of r the definite one nearest in S. If
-/// there is none, r is scaled by 1 - 4/255 first: rounding then takes at most 2/255 of the 4/255
-/// that its eigenvalues have, which leaves a determinant of 3040.
+/// sigma is rounded to the nearest byte, 1 or more. A byte of r is an angle, r = -cos(pi byte / 254): the
+/// paper's bytes, even in r, cannot pass 253/255, which widens a needle along a diagonal to .05 and takes
+/// its moment off by .015; these are 150 times finer there. Of the 8 choices of neighbouring angles the
+/// definite one nearest in S is taken; a semi-definite S has one (docs/sggx.md).
 ///
 /// @param S  positive semi-definite, diagonal in [0, 1]; anything else is clamped
 [[nodiscard]] HEDDLE_HD inline PackedSggx pack(const SggxMatrix& S) {
@@ -129,24 +174,16 @@ store_best_neighbours(Vec3f r, Vec3f weight, PackedSggx& out) {
     const float x = detail::pack_sigma(S.xx, p.sigma[0]);
     const float y = detail::pack_sigma(S.yy, p.sigma[1]);
     const float z = detail::pack_sigma(S.zz, p.sigma[2]);
-    const Vec3f sigmas{x * y, x * z, y * z};
-    Vec3f r{detail::scale_correlation(S.xy, sigmas.x), detail::scale_correlation(S.xz, sigmas.y),
-            detail::scale_correlation(S.yz, sigmas.z)};
-    if (detail::store_if_definite(detail::to_byte(r.x + 0.5f, 254),
-                                  detail::to_byte(r.y + 0.5f, 254),
-                                  detail::to_byte(r.z + 0.5f, 254), p)) {
-        return p; // the least error of all, and nearly always definite
+    const Vec3f product{x * y, x * z, y * z};
+    const Vec3f r{detail::correlation(S.xy, product.x), detail::correlation(S.xz, product.y),
+                  detail::correlation(S.yz, product.z)};
+    if (!detail::store_correlations(r, product, p)) {
+        for (std::uint8_t& byte : p.r) byte = kAngleSteps / 2; // no correlation
     }
-    const Vec3f weight = sigmas * sigmas;
-    if (detail::store_best_neighbours(r, weight, p)) return p;
-    constexpr Vec3f kCentre{127.5f, 127.5f, 127.5f};
-    r = kCentre + (r - kCentre) * (251.0f / 255.0f);
-    if (detail::store_best_neighbours(r, weight, p)) return p;
-    for (std::uint8_t& byte : p.r) byte = 128; // S was not semi-definite: no correlation
     return p;
 }
 
-/// The matrix that 6 bytes stand for, each entry rounded once.
+/// The matrix that 6 bytes stand for.
 ///
 /// Rounding moved its scale: the distribution integrates to 1 within 1 %. Bytes from outside may
 /// decode to anything: ask is_positive_definite first.
@@ -155,8 +192,9 @@ store_best_neighbours(Vec3f r, Vec3f weight, PackedSggx& out) {
     const std::int32_t y = p.sigma[1];
     const std::int32_t z = p.sigma[2];
     const auto square = [](std::int32_t s) { return static_cast<float>(s * s) / 65025.0f; };
-    const auto product = [](std::int32_t ss, std::uint8_t r) { // below 2^24: exact before dividing
-        return static_cast<float>(ss * detail::correlation255(r)) / 16581375.0f;
+    const auto product = [](std::int32_t ss, std::uint8_t byte) {
+        const std::int32_t angle = detail::angle_of(byte);
+        return static_cast<float>(ss) * detail::cosine_of(angle > 0 ? angle : 0) / 65025.0f;
     };
     return {square(x),
             square(y),
