@@ -1,5 +1,6 @@
 #include <heddle/base/memory.h>
 #include <heddle/cli/commands.h>
+#include <heddle/cli/level_options.h>
 #include <heddle/cli/load.h>
 #include <heddle/cli/progress_bar.h>
 #include <heddle/cli/report.h>
@@ -35,6 +36,8 @@ VoxelizeOptions voxelize_options(const Arguments& arguments, const std::string& 
             "--samples is of no use without --coverage mask: nothing is left to chance");
     }
     if (arguments.given("memory")) options.memory_bytes = arguments.bytes("memory");
+    options.footprints = static_cast<std::int32_t>(arguments.integer("footprints"));
+    options.keep_sums = arguments.given("keep-masks");
     options.seed = static_cast<std::uint64_t>(arguments.integer("seed"));
     const std::string folder = std::filesystem::path(output).parent_path().string();
     options.spool_dir = folder.empty() ? "." : folder;
@@ -74,20 +77,20 @@ void run_voxelize(const Arguments& arguments, Report& report, ProgressBar& bar) 
     apply_model(geometry, arguments);
     bar.check();
     bar.begin("plan", "files", 1);
-    const VoxelizePlan plan = plan_voxelize(geometry, options, bar);
+    std::unique_ptr<LevelBuilder> levels_above = level_builder(arguments);
+    const VoxelizePlan plan = plan_voxelize(geometry, options, bar, levels_above.get());
     bar.finish();
     for (const std::string& note : geometry.notes) report.note(note);
     report_plan(report, plan);
     if (dry_run) return;
 
-    const std::unique_ptr<VoxelSource> source = voxelize(geometry, options, plan, bar);
+    VoxelLevels levels = finish_levels(levels_above.get(),
+                                       voxelize(geometry, options, plan, bar, levels_above.get()));
     geometry = {}; // its memory is better used by the writer
-    write_output([&] { write_vdb(*source, output, bar); });
+    write_output([&] { write_vdb(*levels[0], output, bar); });
     bar.finish();
     report.text("output", output);
-    if (source->info().voxel_count == 0) report.note("nothing is covered: the volume is empty");
-    report.count("voxels", source->info().voxel_count);
-    report.count("lobes", source->info().lobe_count);
+    report_levels(report, levels);
     report.bytes("file size", file_bytes(output));
     for (const auto& [stage, seconds] : bar.stages()) report.seconds(stage, seconds);
     const std::chrono::duration<double> total = std::chrono::steady_clock::now() - start;
@@ -122,6 +125,13 @@ Command voxelize_command() {
          "with --coverage mask; 0 = two a subvoxel"},
         {"--fit", "MODE", "moments", one_of({"moments", "last"}), "",
          "moments: all directions count; last: one sample's, as earlier voxelizers"},
+    });
+    add(level_options());
+    add({
+        {"--footprints", "N", "0", one_of({"0", "4", "8"}), "cells per axis",
+         "keeps which parts of a voxel's faces are covered, for transport; 0 = no"},
+        {"--keep-masks", "", "", flag(), "",
+         "stores columns and sums: 'heddle lod' then builds the same levels again, bit for bit"},
         {"--memory", "BYTES", "(half of what is free)", bytes(), "K, M, G",
          "peak memory that is kept to"},
         {"--dry-run", "", "", flag(), "", "prints the plan and writes nothing"},

@@ -5,9 +5,11 @@
 #include <heddle/lod/join_pieces.h>
 #include <heddle/lod/upper_levels.h>
 #include <heddle/voxel/block_keeper.h>
+#include <heddle/voxel/z_order.h>
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <mutex>
 #include <set>
 #include <tuple>
@@ -31,7 +33,7 @@ level_options(const LodOptions& options, const VoxelGridInfo& info, bool with_co
     LevelOptions out;
     out.fields = info.fields;
     out.fields.masks = false;
-    out.fields.footprints = with_columns ? options.footprints : 0;
+    if (!with_columns || options.method == LodMethod::Naive) out.fields.footprints = 0;
     out.merge = {.method = options.method,
                  .max_lobes = options.max_lobes > 0 ? options.max_lobes : info.max_lobes,
                  .with_maps = info.fields.map_sums()};
@@ -122,13 +124,6 @@ private:
     std::vector<std::unique_ptr<Workspace>> idle_;
 };
 
-/// Level-0 footprints of a block's voxels.
-void add_footprints(const OpenLevel& level, const LevelOptions& options, VoxelBlock& block) {
-    // voxels of the open level stand in the block's order
-    for (std::size_t v = 0; v < level.voxels.size(); ++v)
-        append_footprints(level, v, options, block);
-}
-
 std::unique_ptr<VoxelGrid> make_grid(const VoxelGridInfo& info, std::vector<VoxelBlock> blocks) {
     auto grid = std::make_unique<VoxelGrid>();
     grid->about = info;
@@ -210,20 +205,11 @@ struct LevelBuilder::Sample {
     std::int64_t workspace_bytes = 0;         ///< the largest
 };
 
-LevelBuilder::LevelBuilder(const LodOptions& options)
-    : options_(options), sample_(std::make_unique<Sample>()) {
+LevelBuilder::LevelBuilder(const LodOptions& options, bool with_columns)
+    : options_(options), with_columns_(with_columns), sample_(std::make_unique<Sample>()) {
     if (options.max_lobes < 0 || options.max_lobes > kMaxLobes) {
         throw Error(ErrorCode::InvalidArgument, str("lod: lobes is ", options.max_lobes),
                     str("use 1 to ", kMaxLobes));
-    }
-    if (options.footprints != 0 && options.footprints != 4 && options.footprints != 8) {
-        throw Error(ErrorCode::InvalidArgument, str("lod: footprints is ", options.footprints),
-                    "use 4 or 8");
-    }
-    if (options.footprints != 0 && options.method == LodMethod::Naive) {
-        throw Error(ErrorCode::InvalidArgument,
-                    "lod: 'naive' averages coverage: it has no footprints",
-                    "use another method, or no footprints");
     }
 }
 
@@ -235,7 +221,7 @@ void LevelBuilder::begin(const VoxelGridInfo& info,
     state_ = std::make_unique<State>();
     State& s = *state_;
     s.info = info;
-    s.options = level_options(options_, info, true);
+    s.options = level_options(options_, info, with_columns_);
     s.blocks.assign(blocks.begin(), blocks.end());
     VoxelBox box;
     for (const Vec3i& b : blocks) {
@@ -258,13 +244,12 @@ void LevelBuilder::begin(const VoxelGridInfo& info,
     for (int l = kBlockLevel + 1; l <= s.top; ++l) s.pieces.emplace_back(s.upper->count(l));
 }
 
-void LevelBuilder::visit(std::size_t rank, VoxelBlock& block) {
+void LevelBuilder::visit(std::size_t rank, const VoxelBlock& block) {
     State& s = *state_;
     std::unique_ptr<UpperVoxel> top;
     s.workspaces.with([&](Workspace& work) {
         const int last = std::min(s.top, kBlockLevel);
         work.build(block, s.blocks[rank], last, s.options);
-        if (s.options.fields.footprints != 0) add_footprints(work.level[0], s.options, block);
         for (int l = 1; l <= last; ++l) {
             VoxelBlock stored;
             store_level(work.level[static_cast<std::size_t>(l)], s.options, work.pool, work.fits,
@@ -302,14 +287,13 @@ VoxelLevels LevelBuilder::finish(std::unique_ptr<VoxelSource> level0) {
         info.lattice = lattice_of_level(s.info.lattice, static_cast<int>(l));
         info.lod = top > 0 ? name_of(options_.method) : "";
         if (l > 0) info.fields = s.options.fields;
-        info.fields.footprints = s.options.fields.footprints;
         info.max_lobes = l > 0 ? s.options.merge.max_lobes : info.max_lobes;
     }
     return levels;
 }
 
-void LevelBuilder::sample(const VoxelGridInfo& info, const Vec3i& index, VoxelBlock& block) {
-    const LevelOptions options = level_options(options_, info, true);
+void LevelBuilder::sample(const VoxelGridInfo& info, Vec3i index, const VoxelBlock& block) {
+    const LevelOptions options = level_options(options_, info, with_columns_);
     sample_->workspaces.with([&](Workspace& work) {
         const int last = std::min(options_.max_levels, kBlockLevel);
         work.build(block, index, last, options);
@@ -361,6 +345,92 @@ void LevelBuilder::plan(std::span<const Vec3i> blocks, double scale, VoxelizePla
                          runs * static_cast<std::int64_t>(sizeof(UpperVoxel::Run::element_type)) +
                          count * kPieceBytes * std::clamp(top - kWholeLeafLevel, 0, 4);
     plan.visitor_seconds = top > 0 ? kSecondsPerVoxel * static_cast<double>(plan.voxels) : 0.0;
+}
+
+namespace {
+
+/// Puts the coverage that `old` holds of a voxel in the place of the one that was made of level 0's.
+void keep_coverage(const VoxelSource& old, VoxelGrid& made) {
+    std::map<std::tuple<int, int, int>, std::pair<std::size_t, std::size_t>> leaves;
+    VoxelBlock scratch;
+    for (std::size_t b = 0; b < old.block_count(); ++b) {
+        const VoxelBlock& block = old.block(b, scratch);
+        for (std::size_t i = 0; i < block.leaves.size(); ++i) {
+            const Vec3i& o = block.leaves[i].origin;
+            leaves[{o.x, o.y, o.z}] = {b, i};
+        }
+    }
+    for (VoxelBlock& block : made.blocks) {
+        for (const VoxelLeaf& leaf : block.leaves) {
+            const auto at = leaves.find({leaf.origin.x, leaf.origin.y, leaf.origin.z});
+            if (at == leaves.end()) continue;
+            const VoxelBlock& from = old.block(at->second.first, scratch);
+            const VoxelLeaf& there = from.leaves[at->second.second];
+            if (there.active != leaf.active) continue;
+            std::copy_n(from.coverage.begin() + there.first_voxel, leaf.voxel_count(),
+                        block.coverage.begin() + leaf.first_voxel);
+        }
+    }
+}
+
+/// The blocks of a source in Z-order, with their indices.
+struct SourceOrder {
+    std::vector<std::size_t> number;
+    std::vector<Vec3i> index;
+
+    explicit SourceOrder(const VoxelSource& source) {
+        std::vector<std::pair<Vec3i, std::size_t>> all;
+        VoxelBlock scratch;
+        for (std::size_t b = 0; b < source.block_count(); ++b) {
+            const VoxelBlock& block = source.block(b, scratch);
+            if (block.leaves.empty()) continue;
+            const auto cell = [](Vec3i o) { return Vec3i{o.x >> 5, o.y >> 5, o.z >> 5}; };
+            const Vec3i here = cell(block.leaves[0].origin);
+            for (const VoxelLeaf& leaf : block.leaves) {
+                if (cell(leaf.origin) == here) continue;
+                throw Error(ErrorCode::Internal,
+                            "lod: a block does not lie in a cell of 32^3 voxels");
+            }
+            all.emplace_back(here, b);
+        }
+        std::sort(all.begin(), all.end(),
+                  [](const auto& a, const auto& b) { return z_order_less(a.first, b.first); });
+        for (const auto& [at, b] : all) {
+            index.push_back(at);
+            number.push_back(b);
+        }
+    }
+};
+
+} // namespace
+
+VoxelLevels
+rebuild_levels(VoxelLevels old, const LodOptions& options, bool exact, Progress& progress) {
+    const VoxelSource& finest = *old.at(0);
+    const bool masks = finest.info().fields.masks;
+    if (exact && !masks) {
+        throw Error(ErrorCode::InvalidArgument,
+                    str("lod: '", finest.info().name, "' was stored without columns and sums"),
+                    "voxelize it with --keep-masks, or leave out --exact");
+    }
+    const SourceOrder order(finest);
+    LevelBuilder builder(options, masks);
+    builder.begin(finest.info(), order.index, {});
+    progress.begin("levels", "voxels", finest.info().voxel_count);
+    parallel_chunks(order.number.size(), 1, [&](std::size_t i, std::size_t) {
+        progress.check();
+        VoxelBlock scratch;
+        const VoxelBlock& block = finest.block(order.number[i], scratch);
+        builder.visit(i, block);
+        progress.advance(static_cast<std::int64_t>(block.coverage.size()));
+    });
+    VoxelLevels levels = builder.finish(std::move(old[0]));
+    for (std::size_t l = 0; l < levels.size(); ++l) {
+        levels[l]->about.approximate = !masks && levels.size() > 1;
+        if (masks || options.method == LodMethod::Naive || l == 0 || l >= old.size()) continue;
+        if (auto* grid = dynamic_cast<VoxelGrid*>(levels[l].get())) keep_coverage(*old[l], *grid);
+    }
+    return levels;
 }
 
 } // namespace heddle

@@ -17,10 +17,9 @@ inline constexpr int kMaxLevel = 24;
 /// What the user asks of the levels of detail. Nothing is required.
 struct LodOptions {
     LodMethod method = LodMethod::Moments;
-    int max_levels = kMaxLevel;  ///< above level 0, at most; 0: none
-    int max_lobes = 0;           ///< K, 1 to 8; 0: as level 0 has
-    std::int32_t footprints = 0; ///< cells per axis of a face that are kept: 0, 4 or 8
-    std::uint64_t seed = 0;      ///< of the methods `random` and `wasserstein`
+    int max_levels = kMaxLevel; ///< above level 0, at most; 0: none
+    int max_lobes = 0;          ///< K, 1 to 8; 0: as level 0 has
+    std::uint64_t seed = 0;     ///< of the methods `random` and `wasserstein`
 };
 
 /// Levels above 0 that an object has: until at most two voxels per axis are left.
@@ -34,7 +33,8 @@ struct LodOptions {
 /// nor does a region in the voxels whose children it holds.              [docs/lod.md]
 class LevelBuilder final : public BlockVisitor {
 public:
-    explicit LevelBuilder(const LodOptions& options);
+    /// @param with_columns  blocks will come with columns and sums
+    explicit LevelBuilder(const LodOptions& options, bool with_columns = true);
     ~LevelBuilder() override;
     LevelBuilder(const LevelBuilder&) = delete;
     LevelBuilder& operator=(const LevelBuilder&) = delete;
@@ -42,12 +42,12 @@ public:
     void begin(const VoxelGridInfo& info,
                std::span<const Vec3i> blocks,
                const std::string& spool_dir) override;
-    void visit(std::size_t rank, VoxelBlock& block) override;
-    void sample(const VoxelGridInfo& info, const Vec3i& index, VoxelBlock& block) override;
+    void visit(std::size_t rank, const VoxelBlock& block) override;
+    void sample(const VoxelGridInfo& info, Vec3i index, const VoxelBlock& block) override;
     void plan(std::span<const Vec3i> blocks, double scale, VoxelizePlan& plan) override;
 
     /// The levels above 0, after the last visit.
-    /// @param level0  the blocks that were visited; takes the name of the method
+    /// @param level0  the blocks that were visited
     /// @return        level 0 and those above it
     [[nodiscard]] VoxelLevels finish(std::unique_ptr<VoxelSource> level0);
 
@@ -55,8 +55,21 @@ private:
     struct State;
     struct Sample;
     LodOptions options_;
+    bool with_columns_;
     std::unique_ptr<State> state_;
     std::unique_ptr<Sample> sample_;
 };
+
+/// Builds the levels over a finished level 0 again.
+///
+/// With masks (VoxelGridFields::masks) they have the bits of the first build. Without, moments are
+/// taken back from the stored S, and the result says so (VoxelGridInfo::approximate); coverage is that
+/// of the old levels where there are any, else transparencies multiply along an axis and average across
+/// it, which is all that imports without columns allow.
+/// @param old    level 0 and what levels there are; each block of level 0 lies in a cell of 32^3 voxels
+/// @param exact  throws where masks are missing
+/// @throws Error  InvalidArgument: `exact` without masks; Cancelled
+[[nodiscard]] VoxelLevels
+rebuild_levels(VoxelLevels old, const LodOptions& options, bool exact, Progress& progress);
 
 } // namespace heddle

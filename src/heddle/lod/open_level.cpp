@@ -1,9 +1,9 @@
 #include <heddle/lod/open_level.h>
 
 #include <heddle/base/random.h>
-#include <heddle/lod/footprint.h>
 #include <heddle/sggx/moments.h>
 #include <heddle/sggx/pack.h>
+#include <heddle/voxel/footprint.h>
 
 #include <bit>
 #include <cmath>

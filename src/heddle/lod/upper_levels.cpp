@@ -1,7 +1,7 @@
 #include <heddle/lod/upper_levels.h>
 
 #include <heddle/base/trig.h>
-#include <heddle/lod/footprint.h>
+#include <heddle/voxel/footprint.h>
 
 #include <bit>
 

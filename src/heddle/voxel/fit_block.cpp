@@ -1,6 +1,7 @@
 #include <heddle/voxel/fit_block.h>
 
 #include <heddle/base/trig.h>
+#include <heddle/voxel/footprint.h>
 #include <heddle/voxel/lobe_pool.h>
 
 #include <algorithm>
@@ -92,6 +93,14 @@ HEDDLE_INLINE std::int64_t append_voxel(BlockFit& fit, const VoxelSums& voxel) {
     fit.out.coverage.push_back(
         {fraction16(std::popcount(column[0]), n * n), fraction16(std::popcount(column[1]), n * n),
          fraction16(std::popcount(column[2]), n * n), fraction16(hits, n * n * n)});
+    if (options.fields.footprints != 0) {
+        std::array<std::uint64_t, 3>& bits = fit.out.footprints.emplace_back();
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            Footprint face(0, n);
+            face.add(0, column[axis]);
+            bits[axis] = face.bits(options.fields.footprints);
+        }
+    }
     const std::uint32_t order = pool_lobes(fit, voxel);
     append_lobes(fit.pool, order, options.fields, fit.fits, fit.out);
     if (options.fields.masks) append_sums(fit, column);

@@ -9,7 +9,7 @@ namespace heddle {
 
 /// Columns of a voxel's face counted in n x n cells; n = 8, and 4 of it.
 ///
-/// Cell (q, p) is counter number Z-order (q, p), as the words of OpenLevel are.
+/// Cell (q, p) is counter number Z-order (q, p), as the words are: word of 8 x 8 columns (or fewer) by word.
 class Footprint {
 public:
     /// @param level      of the voxel

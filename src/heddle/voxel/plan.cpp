@@ -106,6 +106,9 @@ void check_options(const VoxelizeOptions& o) {
         bad(str("subvoxels per axis is ", o.subvoxels), "use 1, 2, 4 or 8");
     }
     if (o.max_lobes < 1 || o.max_lobes > 8) bad(str("lobes is ", o.max_lobes), "use 1 to 8");
+    if (o.footprints != 0 && o.footprints != 4 && o.footprints != 8) {
+        bad(str("footprints is ", o.footprints), "use 4 or 8 cells per axis");
+    }
     if (o.samples < 0) bad(str("samples is ", o.samples), "use 0 or more");
 }
 

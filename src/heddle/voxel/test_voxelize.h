@@ -43,6 +43,10 @@ struct FoundVoxel {
     Coverage coverage;
     std::span<const Lobe> lobes;
     std::span<const LobeMaps> maps; ///< as many as lobes, or empty
+    std::uint32_t merge_order = 0;
+    std::array<std::uint64_t, 3> footprints{};
+    std::array<std::uint64_t, 3> columns{}; ///< with sums only, and
+    std::span<const LobeMoment> moments;    ///< as many as lobes
 };
 
 /// Calls visit(FoundVoxel) for every voxel, in the source's order.
@@ -60,7 +64,14 @@ void for_each_voxel(const VoxelSource& source, const Visit& visit) {
                 FoundVoxel found{.at = leaf.origin + Vec3i{i >> 6, i >> 3 & 7, i & 7},
                                  .coverage = block.coverage[voxel],
                                  .lobes = {block.lobes.data() + lobe, count},
-                                 .maps = {}};
+                                 .maps = {},
+                                 .moments = {}};
+                if (!block.merge_order.empty()) found.merge_order = block.merge_order[voxel];
+                if (!block.footprints.empty()) found.footprints = block.footprints[voxel];
+                if (!block.columns.empty()) {
+                    found.columns = block.columns[voxel];
+                    found.moments = {block.moments.data() + lobe, count};
+                }
                 if (!block.maps.empty()) found.maps = {block.maps.data() + lobe, count};
                 visit(found);
                 lobe += count;

@@ -31,6 +31,7 @@ struct VoxelizeOptions {
     std::int32_t max_lobes = 3;   ///< K, 1 to 8
     CoverageMode coverage = CoverageMode::Columns;
     FitMode fit = FitMode::Moments;
+    std::int32_t footprints = 0;   ///< cells per axis of a voxel's face that are kept: 0, 4 or 8
     std::int64_t samples = 0;      ///< per span, with CoverageMode::Mask; 0: two a subvoxel
     bool keep_sums = false;        ///< VoxelGridFields::masks stays in the result
     std::int64_t memory_bytes = 0; ///< peak resident size that is kept; 0: half of what is free
@@ -58,11 +59,11 @@ public:
                        const std::string& spool_dir) = 0;
     /// Called from several threads at once.
     /// @param rank   of the block in begin()'s list
-    /// @param block  with columns and sums; may be empty. Its optional arrays may be filled
-    virtual void visit(std::size_t rank, VoxelBlock& block) = 0;
+    /// @param block  with columns and sums; may be empty
+    virtual void visit(std::size_t rank, const VoxelBlock& block) = 0;
 
     /// One of the blocks that the planner voxelizes to see what they cost; from several threads.
-    virtual void sample(const VoxelGridInfo& info, const Vec3i& index, VoxelBlock& block) = 0;
+    virtual void sample(const VoxelGridInfo& info, Vec3i index, const VoxelBlock& block) = 0;
     /// Adds to the plan what the visitor will hold, after the samples.
     /// @param blocks  all
     /// @param scale   how many voxels stand for one of the samples'

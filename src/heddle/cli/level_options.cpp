@@ -1,0 +1,65 @@
+#include <heddle/cli/level_options.h>
+
+#include <heddle/base/error.h>
+#include <heddle/cli/text.h>
+
+#include <utility>
+
+namespace heddle::cli {
+namespace {
+
+std::vector<std::string> method_names() {
+    return {kLodMethodNames.begin(), kLodMethodNames.end()};
+}
+
+} // namespace
+
+std::vector<Option> level_options() {
+    return {
+        {"--levels", "N", "all", any_text(), "",
+         "levels of detail above the finest, at most; all: until two voxels an axis are left"},
+        {"--lod", "METHOD", "moments", one_of(method_names()), "",
+         "how lobes merge from level to level; moments and wasserstein keep up to K"},
+    };
+}
+
+std::unique_ptr<LevelBuilder> level_builder(const Arguments& arguments) {
+    LodOptions options;
+    options.method = lod_method_of(arguments.text("lod")).value();
+    options.seed = static_cast<std::uint64_t>(arguments.integer("seed"));
+    const std::string levels = arguments.text("levels");
+    if (levels != "all") {
+        const std::optional<std::int64_t> count = parse_integer(levels);
+        if (!count || *count < 0 || *count > kMaxLevel) {
+            throw UsageError(str("--levels: '", levels, "' is not all or 0 to ", kMaxLevel));
+        }
+        options.max_levels = static_cast<int>(*count);
+    }
+    if (options.max_levels == 0) return nullptr;
+    return std::make_unique<LevelBuilder>(options);
+}
+
+VoxelLevels finish_levels(LevelBuilder* builder, std::unique_ptr<VoxelSource> level0) {
+    if (builder != nullptr) return builder->finish(std::move(level0));
+    VoxelLevels levels;
+    levels.push_back(std::move(level0));
+    return levels;
+}
+
+void report_levels(Report& report, const VoxelLevels& levels) {
+    const VoxelGridInfo& finest = levels.front()->info();
+    if (finest.voxel_count == 0) report.note("nothing is covered: the volume is empty");
+    report.count("voxels", finest.voxel_count);
+    report.count("lobes", finest.lobe_count);
+    std::int64_t voxels = 0;
+    std::int64_t lobes = 0;
+    for (const auto& level : levels) {
+        voxels += level->info().voxel_count;
+        lobes += level->info().lobe_count;
+    }
+    report.count("levels", static_cast<std::int64_t>(levels.size()),
+                 str("of ", show_count(static_cast<double>(voxels)), " voxels, ",
+                     show_count(static_cast<double>(lobes)), " lobes in all"));
+}
+
+} // namespace heddle::cli
