@@ -130,8 +130,8 @@ Command voxelize_command() {
          "peak memory that is kept to"},
         {"--dry-run", "", "", flag(), "", "prints the plan and writes nothing"},
     });
-    return {"voxelize", "a .vdb with orientations and coverage, from curves, meshes or volumes", options,
-            run_voxelize};
+    return {"voxelize", "a .vdb with orientations and coverage, from curves, meshes or volumes",
+            options, run_voxelize};
 }
 
 } // namespace heddle::cli

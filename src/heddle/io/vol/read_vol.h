@@ -16,7 +16,7 @@ struct VolOptions {
                                     ///< 0: default_density_scale
     Vec3f albedo{0.8f, 0.8f, 0.8f}; ///< linear RGB in [0, 1], of the one fiber material
     std::int32_t max_lobes = 3;     ///< K, for levels to be built from it
-    std::string command;            ///< kept in the result
+    std::string command{};          ///< kept in the result
 };
 
 /// Level 0 made of a .vol, and what the user should know of it, one sentence each.

@@ -17,7 +17,7 @@ bool has_direction(Vec3f t) {
 }
 
 std::uint16_t hidden16(double depth, double most) {
-    return static_cast<std::uint16_t>(std::min(-std::expm1(-depth), most) * 65535.0 + 0.5);
+    return static_cast<std::uint16_t>(std::min(1.0 - std::exp(-depth), most) * 65535.0 + 0.5);
 }
 
 } // namespace
