@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
-#include <regex>
+#include <system_error>
 #include <tuple>
 
 namespace heddle {
@@ -50,6 +50,22 @@ void read_head(ByteReader& in, VolDictionary& out) {
                     kNeither);
         }
     }
+}
+
+bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+
+/// Reads "XXX_YYY_ZZZ", no sign; `text` is then behind it.
+bool take_place(const char*& text, const char* end, Vec3i& out) {
+    for (int a = 0; a < 3; ++a) {
+        if (a > 0 && (text == end || *text++ != '_')) return false;
+        if (text == end || !is_digit(*text)) return false;
+        const auto [behind, error] = std::from_chars(text, end, out[a]);
+        if (error != std::errc()) return false;
+        text = behind;
+    }
+    return true;
 }
 
 } // namespace
@@ -94,16 +110,16 @@ std::string BlockName::of(Vec3i other) const {
 }
 
 std::optional<BlockName> parse_block_name(const std::string& name) {
-    static const std::regex pattern("(.*?)([0-9]{3,9})_([0-9]{3,9})_([0-9]{3,9})([^0-9].*)?");
-    std::smatch parts;
-    if (!std::regex_match(name, parts, pattern)) return std::nullopt;
-    BlockName out{parts[1], parts[5], {}};
-    for (int a = 0; a < 3; ++a) {
-        const std::string digits = parts[static_cast<std::size_t>(a) + 2];
-        std::from_chars(digits.data(), digits.data() + digits.size(), out.block[a]);
+    for (std::size_t at = 0; at < name.size(); ++at) {
+        if (at > 0 && is_digit(name[at - 1])) continue; // not from the middle of a number
+        BlockName out{name.substr(0, at), {}, {}};
+        const char* rest = name.data() + at;
+        if (!take_place(rest, name.data() + name.size(), out.block)) continue;
+        out.postfix = rest;
+        // padded otherwise ("0008"), it would not be found again
+        if (out.of(out.block) == name) return out;
     }
-    // padded otherwise ("0008"), it would not be found again
-    return out.of(out.block) == name ? std::optional(out) : std::nullopt;
+    return std::nullopt;
 }
 
 } // namespace heddle
