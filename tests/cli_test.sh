@@ -76,6 +76,30 @@ for n in 1 4 16 60 90 200 1000; do
         head -c $n $whole >"cut.${whole#*.}" && bad "cut.${whole#*.}" "cut.${whole#*.}"
     done
 done
+# volumes: vol ENCODING CHANNELS BYTES prints 2 x 2 x 2 samples in [0, 1]^3
+vol() {
+    printf "VOL\\3\\$1\\0\\0\\0\\2\\0\\0\\0\\2\\0\\0\\0\\2\\0\\0\\0\\$2\\0\\0\\0"
+    head -c 12 /dev/zero
+    printf '\0\0\200\77\0\0\200\77\0\0\200\77'
+    head -c "$3" /dev/zero | tr '\0' @
+}
+bad_vol() { fails 3 "$1" voxelize "$2" -o old.vdb; }
+bad_vol "no such file" missing.vol
+mkdir folder.vol && bad_vol "folder.vol: is a directory" folder.vol
+: >empty.vol && bad_vol "empty.vol" empty.vol
+head -c 5000 /dev/zero >zero.vol && bad_vol "are no interval: not a volume" zero.vol
+vol 3 1 7 >cut.vol && bad_vol "7 bytes are left" cut.vol
+vol 3 1 9 >long.vol && bad_vol "1 bytes follow" long.vol
+vol 4 3 16 >a-orientation.vol && bad_vol "not density" a-orientation.vol
+vol 3 1 8 >a-density.vol
+fails 2 "--voxels is of no use here" voxelize a-density.vol --voxels 32 -o old.vdb
+fails 2 "--albedo is of no use here" voxelize knit.bcc --albedo 0.5 -o old.vdb
+works info a-density.vol
+grep -q '^orientation *directions, a-orientation.vol' out.txt || wrong "info of a .vol: $(cat out.txt)"
+works voxelize a-density.vol -o vol.vdb --json
+[ "$(json voxels)" = 8 ] || wrong "8 samples became $(json voxels) voxels"
+works preview vol.vdb -o vol.png --size 32x32
+
 cp knit.bcc knit.glb && bad "knit.glb" knit.glb
 cp text.bcc text.xyz && bad "known: .bcc" text.xyz
 mesh() { # TEXT FACE X: a mesh of three points, the first at X

@@ -5,10 +5,12 @@
 #include <heddle/cli/report.h>
 #include <heddle/cli/text.h>
 #include <heddle/cli/voxel_options.h>
+#include <heddle/cli/voxelize_vol.h>
 #include <heddle/io/curve_info.h>
 #include <heddle/io/input_file.h>
 #include <heddle/io/vdb/content_hash.h>
 #include <heddle/io/vdb/read_vdb.h>
+#include <heddle/io/vol/vol_layout.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -206,6 +208,8 @@ void run_info(const Arguments& arguments, Report& report, ProgressBar& bar) {
     bar.begin("read", "files", 1);
     if (suffix_of(path) == ".vdb") {
         report_volume(report, path);
+    } else if (is_volume(arguments)) {
+        report_vol(report, find_vol_layout(path));
     } else {
         report_input(report, path, arguments, bar);
     }

@@ -6,6 +6,7 @@
 #include <heddle/cli/report.h>
 #include <heddle/cli/text.h>
 #include <heddle/cli/voxel_options.h>
+#include <heddle/cli/voxelize_vol.h>
 #include <heddle/io/vdb/write_vdb.h>
 #include <heddle/voxel/voxelize.h>
 
@@ -67,6 +68,8 @@ std::int64_t file_bytes(const std::string& path) {
 }
 
 void run_voxelize(const Arguments& arguments, Report& report, ProgressBar& bar) {
+    if (is_volume(arguments)) return voxelize_volume(arguments, report, bar);
+    refuse_volume_options(arguments);
     const auto start = std::chrono::steady_clock::now();
     const std::string output = arguments.text("output");
     const VoxelizeOptions options = voxelize_options(arguments, output);
@@ -104,7 +107,7 @@ Command voxelize_command() {
     constexpr double kInf = std::numeric_limits<double>::infinity();
     std::vector<Option> options{
         {"FILE", "", "", any_text(), "",
-         "curves: .bcc .hair .data .pyp; meshes: .obj .ply .gltf .glb", true},
+         "curves: .bcc .hair .data .pyp; meshes: .obj .ply .gltf .glb; volumes: .vol", true},
         {"-o, --output", "OUT.vdb", "", any_text(), "", "where the volume goes", true},
     };
     const auto add = [&options](const std::vector<Option>& more) {
@@ -115,6 +118,7 @@ Command voxelize_command() {
           "scene units", "keeps the voxels that touch this box"}});
     add(load_options());
     add(model_options());
+    add(volume_options());
     add({
         {"--lobes", "K", "3", integer(1, 8), "", "most orientation lobes in a voxel"},
         {"--subvoxels", "N", "8", one_of({"1", "2", "4", "8"}), "per voxel axis",
@@ -136,8 +140,8 @@ Command voxelize_command() {
          "peak memory that is kept to"},
         {"--dry-run", "", "", flag(), "", "prints the plan and writes nothing"},
     });
-    return {"voxelize", "a .vdb with orientations and coverage, from curves or meshes", options,
-            run_voxelize};
+    return {"voxelize", "a .vdb with orientations and coverage, from curves, meshes or volumes",
+            options, run_voxelize};
 }
 
 } // namespace heddle::cli

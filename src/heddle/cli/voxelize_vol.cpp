@@ -1,0 +1,136 @@
+#include <heddle/cli/voxelize_vol.h>
+
+#include <heddle/base/memory.h>
+#include <heddle/cli/load.h>
+#include <heddle/cli/progress_bar.h>
+#include <heddle/cli/report.h>
+#include <heddle/cli/text.h>
+#include <heddle/cli/voxel_options.h>
+#include <heddle/io/vdb/write_vdb.h>
+#include <heddle/io/vol/read_vol.h>
+
+#include <chrono>
+#include <filesystem>
+
+namespace heddle::cli {
+namespace {
+
+/// Options of `voxelize` that choose or measure voxels: a volume has them.
+void refuse_other_options(const Arguments& arguments) {
+    std::vector<std::string> useless{"bounds", "subvoxels", "coverage", "samples", "fit"};
+    for (const std::vector<Option>& rows :
+         {resolution_options(), load_options(), model_options()}) {
+        for (const Option& row : rows) useless.push_back(row.key());
+    }
+    for (const std::string& key : useless) {
+        if (!arguments.given(key)) continue;
+        throw UsageError(
+            str("--", key, " is of no use here: the samples of a .vol are the voxels"));
+    }
+}
+
+VolOptions vol_options(const Arguments& arguments) {
+    VolOptions options;
+    if (arguments.given("density-scale")) {
+        options.density_scale = arguments.number("density-scale");
+    }
+    const std::vector<double> rgb = arguments.numbers("albedo");
+    const bool grey = rgb.size() == 1;
+    options.albedo = to_float({rgb[0], grey ? rgb[0] : rgb[1], grey ? rgb[0] : rgb[2]});
+    options.max_lobes = static_cast<std::int32_t>(arguments.integer("lobes"));
+    options.command = arguments.command_line;
+    return options;
+}
+
+std::string show(Vec3d v) {
+    return str(v.x, ", ", v.y, ", ", v.z);
+}
+
+} // namespace
+
+std::vector<Option> volume_options() {
+    return {
+        {"--orientation", "FILE", "(found by name)", any_text(), "",
+         "of a .vol: its directions; of a dictionary: one of their files; none: without"},
+        {"--density-scale", "S", "(density 1 covers 86 % of a voxel's face)", positive(),
+         "per scene unit", "of a .vol: extinction at density 1, the scene's 'scale'"},
+        {"--albedo", "R[,G,B]", "0.8", numbers(1, 3, 0.0, 1.0), "linear", "of a .vol's fibers"},
+    };
+}
+
+bool is_volume(const Arguments& arguments) {
+    return suffix_of(arguments.text("FILE")) == ".vol";
+}
+
+void refuse_volume_options(const Arguments& arguments) {
+    for (const Option& row : volume_options()) {
+        if (!arguments.given(row.key())) continue;
+        throw UsageError(str("--", row.key(), " is of no use here: it says how a .vol is read"));
+    }
+}
+
+void report_vol(Report& report, const VolLayout& layout) {
+    using Json = nlohmann::ordered_json;
+    report.text("kind", layout.hierarchical ? "hierarchical grid volume" : "grid volume");
+    const Bounds& b = layout.bounds;
+    report.add("bounds", "bounds", {Json{b.lo.x, b.lo.y, b.lo.z}, Json{b.hi.x, b.hi.y, b.hi.z}},
+               str(show(b.lo), "  to  ", show(b.hi)));
+    const Vec3d h = layout.pitch;
+    report.add("voxel_size", "voxel size", {h.x, h.y, h.z}, show(h) + " scene units");
+    const Vec3i n = layout.samples();
+    report.add("resolution", "resolution", {n.x, n.y, n.z},
+               str(n.x, " x ", n.y, " x ", n.z, " samples"));
+    if (layout.hierarchical) {
+        const Vec3i c = layout.cells;
+        const Vec3i s = layout.block_samples;
+        report.count("blocks", static_cast<std::int64_t>(layout.blocks.size()),
+                     str("of ", c.x, " x ", c.y, " x ", c.z, ", each of ", s.x, " x ", s.y, " x ",
+                         s.z, " samples"));
+    }
+    const VolBlock& first = layout.blocks.front();
+    const auto file = [](const std::string& path, const char* encoding) {
+        return str(encoding, ", ", std::filesystem::path(path).filename().string());
+    };
+    report.text("density", file(first.density, to_string(layout.density_encoding)));
+    report.text("orientation",
+                layout.orientation_encoding
+                    ? file(first.orientation, to_string(*layout.orientation_encoding))
+                    : "none");
+}
+
+void voxelize_volume(const Arguments& arguments, Report& report, ProgressBar& bar) {
+    const auto start = std::chrono::steady_clock::now();
+    refuse_other_options(arguments);
+    const std::string output = arguments.text("output");
+    const VolOptions options = vol_options(arguments);
+    const bool dry_run = arguments.given("dry-run");
+    if (!dry_run) check_output(output, ".vdb");
+    bar.begin("find", "files", 1);
+    const VolLayout layout = find_vol_layout(
+        arguments.text("FILE"),
+        arguments.given("orientation") ? arguments.text("orientation") : std::string());
+    bar.finish();
+    report_vol(report, layout);
+    if (dry_run) return;
+
+    const VolVolume volume = read_vol(layout, options, bar);
+    bar.finish();
+    for (const std::string& note : volume.notes) report.note(note);
+    write_output([&] { write_vdb(*volume.grid, output, bar); });
+    bar.finish();
+    report.text("output", output);
+    if (volume.grid->info().voxel_count == 0) {
+        report.note("nothing is dense: the volume is empty");
+    }
+    report.count("voxels", volume.grid->info().voxel_count);
+    report.count("lobes", volume.grid->info().lobe_count);
+    std::error_code ignored;
+    const auto size = std::filesystem::file_size(output, ignored);
+    report.bytes("file size", ignored ? 0 : static_cast<std::int64_t>(size));
+    for (const auto& [stage, seconds] : bar.stages()) report.seconds(stage, seconds);
+    const std::chrono::duration<double> total = std::chrono::steady_clock::now() - start;
+    report.seconds("total", total.count());
+    report.bytes("peak memory", peak_resident_bytes());
+}
+
+} // namespace heddle::cli
