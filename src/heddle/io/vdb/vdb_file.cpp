@@ -2,6 +2,7 @@
 #include <heddle/io/input_file.h>
 #include <heddle/io/vdb/vdb_file.h>
 
+#include <algorithm>
 #include <cstring>
 
 namespace heddle {
@@ -77,6 +78,12 @@ GridEntry read_entry(ByteReader& in) {
 }
 
 } // namespace
+
+const GridEntry* VdbContents::find(const std::string& name) const {
+    const auto at = std::find_if(grids.begin(), grids.end(),
+                                 [&](const GridEntry& e) { return e.name == name; });
+    return at == grids.end() ? nullptr : &*at;
+}
 
 VdbContents read_contents(const std::string& path) {
     ByteReader in(path);

@@ -20,6 +20,9 @@ struct GridEntry {
 struct VdbContents {
     std::map<std::string, std::string> metadata; ///< of the file: strings, and int32 in decimal
     std::vector<GridEntry> grids;                ///< in the file's order
+
+    /// The grid of that name; null if there is none.
+    [[nodiscard]] const GridEntry* find(const std::string& name) const;
 };
 
 /// Reads a .vdb's table of contents and checks that every grid lies inside the file and that the
