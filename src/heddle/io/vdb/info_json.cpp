@@ -189,6 +189,16 @@ void check_info(const VoxelGridInfo& info) {
 
 } // namespace
 
+std::string materials_to_json(const std::vector<Material>& materials) {
+    json list = json::array();
+    for (const Material& m : materials) {
+        Writer one;
+        visit_material(one, m);
+        list.push_back(std::move(one.out));
+    }
+    return dump(list);
+}
+
 InfoJson to_json(const VoxelGridInfo& finest, std::span<const LevelCounts> levels) {
     Writer about;
     visit_info(about, finest);
@@ -202,19 +212,13 @@ InfoJson to_json(const VoxelGridInfo& finest, std::span<const LevelCounts> level
         list.push_back(std::move(one.out));
     }
     about("levels", list);
-    json materials = json::array();
-    for (const Material& m : finest.materials) {
-        Writer one;
-        visit_material(one, m);
-        materials.push_back(std::move(one.out));
-    }
     json yarns = json::array();
     for (const YarnType& y : finest.yarns) {
         Writer one;
         visit_yarn(one, y);
         yarns.push_back(std::move(one.out));
     }
-    return {dump(about.out), dump(materials), dump(yarns)};
+    return {dump(about.out), materials_to_json(finest.materials), dump(yarns)};
 }
 
 std::vector<VoxelGridInfo> infos_from_json(const InfoJson& text, const std::string& path) {
