@@ -30,7 +30,8 @@ struct LevelCounts {
 /// The metadata string `heddle_materials`.
 [[nodiscard]] std::string materials_to_json(const std::vector<Material>& materials);
 
-/// The reverse of to_json: one info a level, finest first. `fields` is not in the strings: stays as default.
+/// The reverse of to_json: one info a level, finest first. `fields` is not in the strings and stays
+/// as default.
 /// @param path    for messages
 /// @throws Error  BadFile when a key is missing, of another type or out of range
 [[nodiscard]] std::vector<VoxelGridInfo> infos_from_json(const InfoJson& json,

@@ -8,7 +8,7 @@
 
 namespace heddle {
 
-/// Reads the grids of one level. Each is decoded whole: `coverage` and `lobe_k` together, the others
+/// Reads the grids of one level. Each is decoded whole: `coverage` and `lobe_k` together, the rest
 /// one after the other.
 /// @param info    of the level, fields included
 /// @throws Error  BadFile: a grid is missing, damaged or out of step with `coverage`; counts are
