@@ -40,7 +40,7 @@ refuse_extra(const Command& command, const std::vector<Option>& options, const s
 }
 
 void check_values(const Option& option, const std::vector<std::string>& values) {
-    if (values.size() > 1) {
+    if (values.size() > 1 && !option.repeats) {
         throw UsageError(str(spoken_name(option), " is given ", values.size(), " times"));
     }
     for (const std::string& value : values) {
@@ -92,6 +92,7 @@ std::string bracket(const Option& option) {
         if (!part.empty()) text += (text.empty() ? "" : "; ") + part;
     };
     add(option.unit);
+    if (option.repeats) add("may be given again");
     add(option.values.range());
     if (!option.preset.empty()) {
         add(option.preset.front() == '('
@@ -159,7 +160,7 @@ Arguments parse_arguments(const Command& command,
         arguments.set_preset(option.key(), option.preset);
         if (!values[i].empty()) {
             check_values(option, values[i]);
-            arguments.set(option.key(), values[i].front());
+            arguments.set(option.key(), values[i]);
         } else if (option.required) {
             throw UsageError(str(option.positional() ? "" : "option ", spoken_name(option),
                                  " is missing; see heddle ", command.name, " --help"));

@@ -32,6 +32,15 @@ TEST(CommandLine, GivenValuesAndPresetsAreTold) {
     EXPECT_FALSE(a.given("dry-run"));
 }
 
+TEST(CommandLine, AnOptionThatRepeatsKeepsItsValuesInOrder) {
+    const Arguments a =
+        parse_arguments(material_command(), {"x.vdb", "--set", "b.alpha=1", "--set", "a.name=2"},
+                        "heddle material");
+    EXPECT_EQ(a.texts("set"), (std::vector<std::string>{"b.alpha=1", "a.name=2"}));
+    EXPECT_EQ(a.texts("output"), std::vector<std::string>{});
+    EXPECT_NE(help_text(material_command()).find("may be given again"), std::string::npos);
+}
+
 TEST(CommandLine, NegativeNumbersAreValues) {
     const Arguments a = parse({"in.bcc", "-o", "x.vdb", "--bounds", "-1,-2,-3,1,2,3"});
     EXPECT_EQ(a.numbers("bounds").front(), -1.0);

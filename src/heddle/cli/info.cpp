@@ -177,9 +177,57 @@ void report_input(Report& report,
     for (const std::string& note : geometry.notes) report.note(note);
 }
 
+/// One row a level: what it holds and what that takes.
+void report_levels(Report& report,
+                   const std::vector<VoxelGridInfo>& levels,
+                   const std::vector<GridSummary>& grids) {
+    Json list = Json::array();
+    std::vector<std::vector<std::string>> rows;
+    for (const VoxelGridInfo& info : levels) {
+        std::int64_t bytes = 0;
+        for (const GridSummary& grid : grids) bytes += grid.level == info.level ? grid.bytes : 0;
+        const auto per_voxel = [&](std::int64_t n) {
+            return info.voxel_count > 0
+                       ? static_cast<double>(n) / static_cast<double>(info.voxel_count)
+                       : 0.0;
+        };
+        const double lobes = per_voxel(info.lobe_count), size = per_voxel(bytes);
+        list.push_back({{"level", info.level},
+                        {"voxel_size", to_json(info.lattice.voxel_size)},
+                        {"voxels", info.voxel_count},
+                        {"lobes", info.lobe_count},
+                        {"lobes_per_voxel", lobes},
+                        {"bytes", bytes},
+                        {"bytes_per_voxel", size}});
+        rows.push_back({str("level ", info.level),
+                        show_count(static_cast<double>(info.voxel_count)), show_fixed(lobes, 3),
+                        show_bytes(static_cast<double>(bytes)), show_fixed(size, 1)});
+    }
+    report.table("levels", std::move(list),
+                 {"levels", "voxels", "lobes per voxel", "size", "bytes per voxel"}, rows);
+}
+
+/// "a (int64), b (float)": the grids of level 0, the sums of masks as their number.
+std::string show_grids(const std::vector<GridSummary>& grids) {
+    std::string names;
+    int sums = 0;
+    for (const GridSummary& g : grids) {
+        if (g.level > 0) continue;
+        if (g.name.starts_with("sums_")) {
+            ++sums;
+        } else {
+            names += str(names.empty() ? "" : ", ", g.name, " (", g.type, ")");
+        }
+    }
+    return sums == 0 ? names : str(names, ", ", sums, " sums (int64)");
+}
+
 void report_volume(Report& report, const std::string& path) {
-    const std::unique_ptr<VoxelGrid> grid = read_vdb(path);
-    const VoxelGridInfo& info = grid->info();
+    const std::vector<VoxelGridInfo> levels = read_infos(path);
+    for (const VoxelGridInfo& level : levels) {
+        (void)read_vdb(path, level.level); // every voxel of every level is checked
+    }
+    const VoxelGridInfo& info = levels[0];
     const Vec3d size = info.lattice.voxel_size;
     report.text("name", info.name);
     report.add("voxel_size", "voxel size", to_json(size), show(size) + " scene units");
@@ -192,13 +240,24 @@ void report_volume(Report& report, const std::string& path) {
     report.text("command", info.command);
     const std::vector<GridSummary> grids = summarize_vdb(path);
     Json list = Json::array();
-    std::string names;
+    std::int64_t bytes = 0;
     for (const GridSummary& g : grids) {
         list.push_back(
             {{"name", g.name}, {"type", g.type}, {"voxels", g.active_voxels}, {"bytes", g.bytes}});
-        names += str(names.empty() ? "" : ", ", g.name, " (", g.type, ")");
+        bytes += g.bytes;
     }
-    report.add("grids", "grids", std::move(list), names);
+    report.add("grids", "grids", std::move(list), show_grids(grids));
+    report_levels(report, levels, grids);
+    if (levels.size() > 1) {
+        report.text("lod", info.lod);
+        report.add("approximate", "built from", info.approximate,
+                   info.approximate ? "stored lobes (approximate)" : "sums");
+    }
+    if (info.voxel_count > 0) {
+        const double all = static_cast<double>(bytes) / static_cast<double>(info.voxel_count);
+        report.add("bytes_per_voxel", "all levels", all,
+                   show_fixed(all, 1) + " bytes per voxel of level 0");
+    }
     report.text("content hash", content_hash(grids));
 }
 

@@ -129,7 +129,11 @@ std::string Option::key() const {
 
 const std::string& Arguments::text(const std::string& key) const {
     const auto it = given_.find(key);
-    return it != given_.end() ? it->second : preset_.at(key);
+    return it != given_.end() ? it->second.front() : preset_.at(key);
+}
+std::vector<std::string> Arguments::texts(const std::string& key) const {
+    const auto it = given_.find(key);
+    return it != given_.end() ? it->second : std::vector<std::string>{};
 }
 std::int64_t Arguments::integer(const std::string& key) const {
     return parse_integer(text(key)).value();

@@ -61,6 +61,7 @@ struct Option {
     std::string unit;      ///< empty where it has none
     std::string text;      ///< what it does
     bool required = false; ///< must be given
+    bool repeats = false;  ///< may be given more than once
 
     /// The name that the program asks for: "output" of "-o, --output".
     [[nodiscard]] std::string key() const;
@@ -70,11 +71,16 @@ struct Option {
 /// What the user gave, checked against the table; what was not given is the row's preset.
 class Arguments {
 public:
-    void set(const std::string& key, const std::string& value) { given_[key] = value; }
+    /// @param values  at least one; more than one where the option repeats
+    void set(const std::string& key, const std::vector<std::string>& values) {
+        given_[key] = values;
+    }
     void set_preset(const std::string& key, const std::string& value) { preset_[key] = value; }
 
     [[nodiscard]] bool given(const std::string& key) const { return given_.contains(key); }
     [[nodiscard]] const std::string& text(const std::string& key) const;
+    /// All values of an option that repeats, in their order; none if it is not given.
+    [[nodiscard]] std::vector<std::string> texts(const std::string& key) const;
     [[nodiscard]] std::int64_t integer(const std::string& key) const;
     [[nodiscard]] double number(const std::string& key) const;
     [[nodiscard]] std::vector<double> numbers(const std::string& key, char separator = ',') const;
@@ -83,7 +89,7 @@ public:
     std::string command_line; ///< as the user typed it, quoted where a shell needs it
 
 private:
-    std::map<std::string, std::string> given_;
+    std::map<std::string, std::vector<std::string>> given_;
     std::map<std::string, std::string> preset_;
 };
 

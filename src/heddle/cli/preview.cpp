@@ -42,8 +42,9 @@ void run_preview(const Arguments& arguments, Report& report, ProgressBar& bar) {
     const std::string output = arguments.text("output");
     const PreviewOptions options = preview_options(arguments);
     check_output(output, ".png");
+    const int level = static_cast<int>(arguments.integer("level"));
     bar.begin("read", "files", 1);
-    const std::unique_ptr<VoxelGrid> grid = read_vdb(arguments.text("FILE"));
+    const std::unique_ptr<VoxelGrid> grid = read_vdb(arguments.text("FILE"), level);
     bar.check();
     const PreviewImage image = render_preview(*grid, options, bar);
     bar.begin("write", "files", 1);
@@ -65,6 +66,8 @@ Command preview_command() {
             {
                 {"FILE", "", "", any_text(), "", "a .vdb that voxelize wrote", true},
                 {"-o, --output", "OUT.png", "", any_text(), "", "where the picture goes", true},
+                {"--level", "N", "0", integer(0, 1000), "",
+                 "of detail; 0 = the finest, each next one has voxels twice as large"},
                 {"--color", "BY", "albedo", one_of(color_names()), "",
                  "what the colour shows: direction and width are the heaviest lobe's"},
                 {"--from", "X,Y,Z", "(three quarters from the front, from above)",

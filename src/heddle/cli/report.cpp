@@ -45,6 +45,28 @@ void Report::seconds(const std::string& label, double value) {
     add(key_of(label, "seconds"), label, value, show_seconds(value));
 }
 
+void Report::table(const std::string& key,
+                   nlohmann::ordered_json value,
+                   const std::vector<std::string>& headings,
+                   const std::vector<std::vector<std::string>>& rows) {
+    values_[key] = std::move(value);
+    std::vector<std::size_t> widths;
+    for (const std::string& heading : headings) widths.push_back(heading.size());
+    for (const std::vector<std::string>& row : rows) {
+        for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+    }
+    const auto add_line = [&](const std::vector<std::string>& row) {
+        std::string line;
+        for (std::size_t i = 1; i < row.size(); ++i) {
+            line += row[i];
+            if (i + 1 < row.size()) line += std::string(widths[i] + 2 - row[i].size(), ' ');
+        }
+        rows_.emplace_back(row[0], line);
+    };
+    add_line(headings);
+    for (const std::vector<std::string>& row : rows) add_line(row);
+}
+
 void Report::note(const std::string& sentence) {
     values_["notes"].push_back(sentence);
     if (!quiet) std::fprintf(stderr, "note: %s\n", sentence.c_str());

@@ -24,6 +24,11 @@ public:
              const std::string& label,
              nlohmann::ordered_json value,
              const std::string& shown);
+    /// Rows under headings, the first cell of each as label; `value` says the same in JSON.
+    void table(const std::string& key,
+               nlohmann::ordered_json value,
+               const std::vector<std::string>& headings,
+               const std::vector<std::vector<std::string>>& rows);
     /// One sentence that the user should see: on stderr at once, and in the JSON's "notes".
     void note(const std::string& sentence);
 

@@ -32,6 +32,24 @@ TEST(Report, JsonHasExactNumbersWithTheUnitInTheKey) {
     EXPECT_EQ(read.at("notes").at(0), "radius estimated");
 }
 
+TEST(Report, ATableInsideIsAlignedByColumn) {
+    Report report;
+    report.count("voxels", 5);
+    report.table("rows", {1, 2}, {"rows", "a", "b"},
+                 {{"one", "long cell", "x"}, {"two", "y", "z"}});
+    testing::internal::CaptureStdout();
+    report.print();
+    EXPECT_EQ(testing::internal::GetCapturedStdout(), "voxels  5\n"
+                                                      "rows    a          b\n"
+                                                      "one     long cell  x\n"
+                                                      "two     y          z\n");
+    report.json = true;
+    testing::internal::CaptureStdout();
+    report.print();
+    const auto read = nlohmann::json::parse(testing::internal::GetCapturedStdout());
+    EXPECT_EQ(read.at("rows").size(), 2u);
+}
+
 TEST(Report, QuietPrintsNoTable) {
     Report report;
     report.quiet = true;

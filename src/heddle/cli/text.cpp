@@ -81,6 +81,12 @@ std::string show_count(double count) {
     return text;
 }
 
+std::string show_fixed(double value, int decimals) {
+    std::array<char, 400> out{}; // the largest double has 309 digits
+    std::snprintf(out.data(), out.size(), "%.*f", std::clamp(decimals, 0, 20), value);
+    return out.data();
+}
+
 std::string show_bytes(double bytes) {
     if (bytes < 1024.0) return str(static_cast<std::int64_t>(bytes), " B");
     constexpr std::array<const char*, 5> kUnits{"B", "KiB", "MiB", "GiB", "TiB"};

@@ -24,6 +24,9 @@ namespace heddle::cli {
 /// "12.4 M" for 12,400,000; whole numbers below 1000 as they are.
 [[nodiscard]] std::string show_count(double count);
 
+/// "0.125": so many digits behind the point.
+[[nodiscard]] std::string show_fixed(double value, int decimals);
+
 /// "1.8 GiB" for 1,932,735,283.
 [[nodiscard]] std::string show_bytes(double bytes);
 

@@ -5,6 +5,11 @@
 namespace heddle::cli {
 namespace {
 
+TEST(CliText, FixedNumbersHaveTheirDigits) {
+    EXPECT_EQ(show_fixed(1.0 / 3.0, 3), "0.333");
+    EXPECT_EQ(show_fixed(1e300, 0).size(), 301u);
+}
+
 TEST(CliText, NumbersAreReadWholeOrNotAtAll) {
     EXPECT_EQ(parse_integer("12"), 12);
     EXPECT_EQ(parse_integer("-3"), -3);

@@ -2,8 +2,10 @@
 
 #include <heddle/base/parallel.h>
 #include <heddle/base/random.h>
+#include <heddle/io/vdb/grid_name.h>
 #include <heddle/io/vdb/grid_reader.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <iomanip>
@@ -59,8 +61,10 @@ std::vector<GridSummary> summarize_vdb(const std::string& path) {
     const VdbContents file = read_contents(path);
     for (const GridEntry& entry : file.grids) {
         const GridLeaves grid = read_grid(path, entry);
-        out.push_back({entry.name, value_type(entry.type), static_cast<std::int64_t>(grid.size()),
-                       entry.end - entry.begin, hash_voxels(grid, hash_text(entry.name))});
+        const int level = std::max(0, split_grid_name(entry.name).level);
+        out.push_back({entry.name, level, value_type(entry.type),
+                       static_cast<std::int64_t>(grid.size()), entry.end - entry.begin,
+                       hash_voxels(grid, hash_text(entry.name))});
     }
     return out;
 }

@@ -9,6 +9,7 @@ namespace heddle {
 /// What one grid of a .vdb holds.
 struct GridSummary {
     std::string name;
+    int level = 0;    ///< as the name says; 0 where it says none
     std::string type; ///< "float", "vec3s", "int32", "int64"
     std::int64_t active_voxels = 0;
     std::int64_t bytes = 0; ///< in the file, description included

@@ -7,24 +7,36 @@ namespace heddle {
 
 /// The grids of a Heddle .vdb; docs/format.md says what each holds.
 enum class GridKind : std::uint8_t {
-    Density,  ///< float
-    Tangent,  ///< vec3s
-    Normal,   ///< vec3s
-    Coverage, ///< int64
-    Lobe,     ///< int64, one grid per lobe
-    Albedo,   ///< int32, one grid per lobe
-    Surface,  ///< int32, one grid per lobe
-    Aniso     ///< int64, one grid per lobe
+    Density,       ///< float
+    Tangent,       ///< vec3s
+    Normal,        ///< vec3s
+    Coverage,      ///< int64
+    Columns,       ///< int64, one grid per axis
+    Footprint,     ///< int64: of 4 x 4 cells, three axes in one
+    FootprintAxis, ///< int64: of 8 x 8 cells, one grid per axis
+    Correlation,   ///< int32
+    Merge,         ///< int32
+    Lobe,          ///< int64, one grid per lobe
+    Albedo,        ///< int32, one grid per lobe
+    Surface,       ///< int32, one grid per lobe
+    Aniso,         ///< int64, one grid per lobe
+    Sums           ///< int64, 7 or 19 grids per lobe
 };
 
-/// Name of a grid in the file: "density", "lobe_1"; from level 1 on "lobe_1_level_2".
-/// @param lobe   from 0; ignored where a voxel has one value
+/// Name of a grid in the file: "density", "columns_z", "lobe_1", "sums_1_6"; from level 1 on
+/// "lobe_1_level_2".
+/// @param index  axis or lobe from 0; ignored where a voxel has one value
 /// @param level  from 0, the finest
-[[nodiscard]] std::string grid_name(GridKind kind, int lobe = 0, int level = 0);
+/// @param part   of GridKind::Sums: which of a lobe's sums, from 0
+[[nodiscard]] std::string grid_name(GridKind kind, int index = 0, int level = 0, int part = 0);
 
-/// True for the kinds that have one grid per lobe.
-[[nodiscard]] constexpr bool is_per_lobe(GridKind kind) {
-    return kind >= GridKind::Lobe;
-}
+/// A grid's name without its level, and the level.
+struct GridStem {
+    std::string stem; ///< "lobe_1"
+    int level = 0;    ///< -1: the suffix has a number, but none that grid_name gives
+};
+
+/// The reverse of what `level` does in grid_name.
+[[nodiscard]] GridStem split_grid_name(const std::string& name);
 
 } // namespace heddle

@@ -10,10 +10,12 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 #include <vector>
 
 // What each grid of the file holds of a voxel. One struct a kind: `has` says whether voxel v of the
-// block, whose first lobe is l, is active in the grid; `value` is what is written.
+// block, whose first lobe is l, is active in the grid; `value` is what is written; `put` takes it
+// back, into arrays that have their size. What follows from other grids has no `put`.
 
 namespace heddle {
 
@@ -25,6 +27,16 @@ template <typename Integer, typename T>
     static_assert(sizeof(T) <= sizeof(Integer));
     Integer out = 0;
     std::memcpy(&out, &a, sizeof(T));
+    return out;
+}
+
+/// The reverse: the lowest bytes of `value`.
+template <typename T, typename Integer>
+[[nodiscard]] T from_bytes(Integer value) {
+    static_assert(sizeof(T) <= sizeof(Integer));
+    static_assert(std::is_trivially_copyable_v<T>);
+    T out{};
+    std::memcpy(static_cast<void*>(&out), &value, sizeof(T));
     return out;
 }
 
@@ -68,11 +80,85 @@ struct DirectionValues {
     }
 };
 
-struct CoverageValues {
-    using Value = std::int64_t;
+/// What the grids that are active in every voxel share.
+struct OfVoxel {
     [[nodiscard]] bool has(const VoxelBlock&, std::size_t, std::size_t) const { return true; }
+    [[nodiscard]] bool every_voxel() const { return true; }
+};
+
+struct CoverageValues : OfVoxel {
+    using Value = std::int64_t;
     [[nodiscard]] Value value(const VoxelBlock& b, std::size_t v, std::size_t) const {
         return bytes_as<Value>(b.coverage[v]);
+    }
+    void put(VoxelBlock& b, std::size_t v, std::size_t, Value from) const {
+        b.coverage[v] = from_bytes<Coverage>(from);
+    }
+};
+
+/// One axis' columns.
+struct ColumnValues : OfVoxel {
+    using Value = std::int64_t;
+    std::size_t axis = 0;
+    [[nodiscard]] Value value(const VoxelBlock& b, std::size_t v, std::size_t) const {
+        return std::bit_cast<Value>(b.columns[v][axis]);
+    }
+    void put(VoxelBlock& b, std::size_t v, std::size_t, Value from) const {
+        b.columns[v][axis] = std::bit_cast<std::uint64_t>(from);
+    }
+};
+
+/// One axis' footprint of 8 x 8 cells.
+struct FootprintAxisValues : OfVoxel {
+    using Value = std::int64_t;
+    std::size_t axis = 0;
+    [[nodiscard]] Value value(const VoxelBlock& b, std::size_t v, std::size_t) const {
+        return std::bit_cast<Value>(b.footprints[v][axis]);
+    }
+    void put(VoxelBlock& b, std::size_t v, std::size_t, Value from) const {
+        b.footprints[v][axis] = std::bit_cast<std::uint64_t>(from);
+    }
+};
+
+/// The footprints of 4 x 4 cells: 16 bits an axis.
+struct FootprintValues : OfVoxel {
+    using Value = std::int64_t;
+    using Words = std::array<std::uint16_t, 3>;
+    [[nodiscard]] Value value(const VoxelBlock& b, std::size_t v, std::size_t) const {
+        Words words{};
+        for (std::size_t a = 0; a < 3; ++a) {
+            words[a] = static_cast<std::uint16_t>(b.footprints[v][a]);
+        }
+        return bytes_as<Value>(words);
+    }
+    void put(VoxelBlock& b, std::size_t v, std::size_t, Value from) const {
+        const auto words = from_bytes<Words>(from);
+        for (std::size_t a = 0; a < 3; ++a) b.footprints[v][a] = words[a];
+    }
+};
+
+struct CorrelationValues : OfVoxel {
+    using Value = std::int32_t;
+    [[nodiscard]] Value value(const VoxelBlock& b, std::size_t v, std::size_t) const {
+        return bytes_as<Value>(b.correlation[v]);
+    }
+    void put(VoxelBlock& b, std::size_t v, std::size_t, Value from) const {
+        b.correlation[v] = from_bytes<std::array<std::uint8_t, 3>>(from);
+    }
+};
+
+/// With two lobes there is one order only.
+struct MergeValues {
+    using Value = std::int32_t;
+    [[nodiscard]] bool has(const VoxelBlock& b, std::size_t v, std::size_t) const {
+        return b.lobe_count[v] > 2 && !b.merge_order.empty();
+    }
+    [[nodiscard]] bool every_voxel() const { return false; }
+    [[nodiscard]] Value value(const VoxelBlock& b, std::size_t v, std::size_t) const {
+        return std::bit_cast<Value>(b.merge_order[v]);
+    }
+    void put(VoxelBlock& b, std::size_t v, std::size_t, Value from) const {
+        b.merge_order[v] = std::bit_cast<std::uint32_t>(from);
     }
 };
 
@@ -82,12 +168,16 @@ struct OfLobe {
     [[nodiscard]] bool has(const VoxelBlock& b, std::size_t v, std::size_t) const {
         return b.lobe_count[v] > k;
     }
+    [[nodiscard]] bool every_voxel() const { return k == 0; }
 };
 
 struct LobeValues : OfLobe {
     using Value = std::int64_t;
     [[nodiscard]] Value value(const VoxelBlock& b, std::size_t, std::size_t l) const {
         return bytes_as<Value>(b.lobes[l + k]);
+    }
+    void put(VoxelBlock& b, std::size_t, std::size_t l, Value from) const {
+        b.lobes[l + k] = from_bytes<Lobe>(from);
     }
 };
 
@@ -96,13 +186,24 @@ struct AlbedoValues : OfLobe {
     [[nodiscard]] Value value(const VoxelBlock& b, std::size_t, std::size_t l) const {
         return bytes_as<Value>(b.maps[l + k].albedo);
     }
+    void put(VoxelBlock& b, std::size_t, std::size_t l, Value from) const {
+        b.maps[l + k].albedo = from_bytes<std::array<std::uint8_t, 3>>(from);
+    }
 };
 
 struct SurfaceValues : OfLobe {
     using Value = std::int32_t;
+    using Bytes = std::array<std::uint8_t, 3>;
     [[nodiscard]] Value value(const VoxelBlock& b, std::size_t, std::size_t l) const {
         const LobeMaps& m = b.maps[l + k];
-        return bytes_as<Value>(std::array<std::uint8_t, 3>{m.roughness, m.metalness, m.anisotropy});
+        return bytes_as<Value>(Bytes{m.roughness, m.metalness, m.anisotropy});
+    }
+    void put(VoxelBlock& b, std::size_t, std::size_t l, Value from) const {
+        const auto bytes = from_bytes<Bytes>(from);
+        LobeMaps& m = b.maps[l + k];
+        m.roughness = bytes[0];
+        m.metalness = bytes[1];
+        m.anisotropy = bytes[2];
     }
 };
 
@@ -110,6 +211,34 @@ struct AnisoValues : OfLobe {
     using Value = std::int64_t;
     [[nodiscard]] Value value(const VoxelBlock& b, std::size_t, std::size_t l) const {
         return bytes_as<Value>(b.tangents[l + k]);
+    }
+    void put(VoxelBlock& b, std::size_t, std::size_t l, Value from) const {
+        b.tangents[l + k] = from_bytes<PackedSggx>(from);
+    }
+};
+
+inline constexpr std::size_t kMomentSums = sizeof(LobeMoment) / sizeof(std::int64_t);
+inline constexpr std::size_t kMapSums = sizeof(MapSums) / sizeof(std::int64_t);
+
+/// One of the sums of a lobe: those of LobeMoment in its order, then those of MapSums.
+struct SumValues : OfLobe {
+    using Value = std::int64_t;
+    std::size_t part = 0;
+    /// Where it lies: the structs are nothing but 64-bit numbers.
+    template <typename Block>
+    [[nodiscard]] auto place(Block& b, std::size_t l) const {
+        using Byte = std::conditional_t<std::is_const_v<Block>, const char, char>;
+        Byte* const of_lobe = part < kMomentSums ? reinterpret_cast<Byte*>(&b.moments[l + k])
+                                                 : reinterpret_cast<Byte*>(&b.map_sums[l + k]);
+        return of_lobe + sizeof(Value) * (part < kMomentSums ? part : part - kMomentSums);
+    }
+    [[nodiscard]] Value value(const VoxelBlock& b, std::size_t, std::size_t l) const {
+        Value out = 0;
+        std::memcpy(&out, place(b, l), sizeof(out));
+        return out;
+    }
+    void put(VoxelBlock& b, std::size_t, std::size_t l, Value from) const {
+        std::memcpy(place(b, l), &from, sizeof(from));
     }
 };
 

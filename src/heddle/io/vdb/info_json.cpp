@@ -1,5 +1,6 @@
 #include <heddle/base/error.h>
 #include <heddle/io/vdb/info_json.h>
+#include <heddle/io/vdb/vdb_format.h>
 
 #include <nlohmann/json.hpp>
 
@@ -131,13 +132,40 @@ void visit_info(Visitor& field, InfoT& info) {
     field("voxel_size", info.lattice.voxel_size);
     field("subvoxels", info.lattice.subvoxels);
     field("max_lobes", info.max_lobes);
-    field("voxel_count", info.voxel_count);
-    field("lobe_count", info.lobe_count);
     field("command", info.command);
+}
+
+template <typename Visitor, typename InfoT>
+void visit_counts(Visitor& field, InfoT& level) {
+    field("voxel_count", level.voxel_count);
+    field("lobe_count", level.lobe_count);
 }
 
 std::string dump(const json& value) { // names need not be UTF-8: a bad byte becomes U+FFFD
     return value.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+void add_counts(Writer& to, const LevelCounts& level, const Lattice& lattice) {
+    visit_counts(to, level);
+    if (level.voxel_count == 0) return;
+    const Vec3d h = lattice.voxel_size;
+    const Vec3i lo = level.lo, hi = level.hi;
+    to("bounds_lo", Vec3d{lo.x * h.x, lo.y * h.y, lo.z * h.z});
+    to("bounds_hi", Vec3d{(hi.x + 1.0) * h.x, (hi.y + 1.0) * h.y, (hi.z + 1.0) * h.z});
+}
+
+/// The level as `about` tells of it, which is what all levels share and the finest lattice.
+VoxelGridInfo make_level(const VoxelGridInfo& about, int level, const json& counts) {
+    VoxelGridInfo info = about;
+    info.level = level;
+    info.lattice = lattice_of_level(about.lattice, level);
+    const Reader read{counts};
+    visit_counts(read, info);
+    if (info.voxel_count < 0 || info.lobe_count < info.voxel_count) {
+        throw std::runtime_error(str("level ", level, " has ", info.voxel_count, " voxels and ",
+                                     info.lobe_count, " lobes"));
+    }
+    return info;
 }
 
 void check_info(const VoxelGridInfo& info) {
@@ -161,35 +189,46 @@ void check_info(const VoxelGridInfo& info) {
 
 } // namespace
 
-InfoJson to_json(const VoxelGridInfo& info, Vec3i lo, Vec3i hi) {
-    Writer about;
-    visit_info(about, info);
-    const Vec3d h = info.lattice.voxel_size;
-    if (info.voxel_count > 0) {
-        about("bounds_lo", Vec3d{lo.x * h.x, lo.y * h.y, lo.z * h.z});
-        about("bounds_hi", Vec3d{(hi.x + 1.0) * h.x, (hi.y + 1.0) * h.y, (hi.z + 1.0) * h.z});
-    }
-    json materials = json::array();
-    for (const Material& m : info.materials) {
+std::string materials_to_json(const std::vector<Material>& materials) {
+    json list = json::array();
+    for (const Material& m : materials) {
         Writer one;
         visit_material(one, m);
-        materials.push_back(std::move(one.out));
+        list.push_back(std::move(one.out));
     }
+    return dump(list);
+}
+
+InfoJson to_json(const VoxelGridInfo& finest, std::span<const LevelCounts> levels) {
+    Writer about;
+    visit_info(about, finest);
+    add_counts(about, levels[0], finest.lattice); // of level 0, as files of one level have them
+    about("lod", finest.lod);
+    about("approximate", finest.approximate);
+    json list = json::array();
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        Writer one;
+        add_counts(one, levels[i], lattice_of_level(finest.lattice, static_cast<int>(i)));
+        list.push_back(std::move(one.out));
+    }
+    about("levels", list);
     json yarns = json::array();
-    for (const YarnType& y : info.yarns) {
+    for (const YarnType& y : finest.yarns) {
         Writer one;
         visit_yarn(one, y);
         yarns.push_back(std::move(one.out));
     }
-    return {dump(about.out), dump(materials), dump(yarns)};
+    return {dump(about.out), materials_to_json(finest.materials), dump(yarns)};
 }
 
-VoxelGridInfo info_from_json(const InfoJson& text, const std::string& path) {
+std::vector<VoxelGridInfo> infos_from_json(const InfoJson& text, const std::string& path) {
     try {
         VoxelGridInfo info;
         const json about = json::parse(text.info);
         const Reader read_info{about};
         visit_info(read_info, info);
+        info.lod = about.value("lod", std::string());
+        info.approximate = about.value("approximate", false);
         for (const json& one : json::parse(text.materials)) {
             const Reader read{one};
             visit_material(read, info.materials.emplace_back());
@@ -199,7 +238,17 @@ VoxelGridInfo info_from_json(const InfoJson& text, const std::string& path) {
             visit_yarn(read, info.yarns.emplace_back());
         }
         check_info(info);
-        return info;
+        // files from before there were levels have none of the list
+        const json levels = about.contains("levels") ? about.at("levels") : json::array({about});
+        if (!levels.is_array() || levels.empty() || levels.size() > kMaxLevels) {
+            throw std::runtime_error(
+                str(levels.size(), " levels (allowed: 1 to ", kMaxLevels, ")"));
+        }
+        std::vector<VoxelGridInfo> infos;
+        for (std::size_t i = 0; i < levels.size(); ++i) {
+            infos.push_back(make_level(info, static_cast<int>(i), levels[i]));
+        }
+        return infos;
     } catch (const std::exception& e) { // nlohmann's and ours alike
         throw Error(ErrorCode::BadFile, str("its heddle metadata cannot be used: ", e.what()),
                     "write the file again", {.path = path});

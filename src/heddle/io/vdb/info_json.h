@@ -2,7 +2,9 @@
 
 #include <heddle/voxel/voxel_grid.h>
 
+#include <span>
 #include <string>
+#include <vector>
 
 namespace heddle {
 
@@ -13,12 +15,26 @@ struct InfoJson {
     std::string yarns;     ///< `heddle_yarns`: an array
 };
 
-/// @param lo, hi  first and last active voxel, inclusive; for the bounds in scene units
-[[nodiscard]] InfoJson to_json(const VoxelGridInfo& info, Vec3i lo, Vec3i hi);
+/// What is known of one level beside what all share.
+struct LevelCounts {
+    std::int64_t voxel_count = 0;
+    std::int64_t lobe_count = 0;
+    Vec3i lo; ///< first and
+    Vec3i hi; ///< last active voxel, inclusive; meaningless without voxels
+};
 
-/// The reverse; `fields` is not in the strings and stays as default.
+/// @param finest  of level 0; its own counts are not used
+/// @param levels  finest first, at least one
+[[nodiscard]] InfoJson to_json(const VoxelGridInfo& finest, std::span<const LevelCounts> levels);
+
+/// The metadata string `heddle_materials`.
+[[nodiscard]] std::string materials_to_json(const std::vector<Material>& materials);
+
+/// The reverse of to_json: one info a level, finest first. `fields` is not in the strings and stays
+/// as default.
 /// @param path    for messages
 /// @throws Error  BadFile when a key is missing, of another type or out of range
-[[nodiscard]] VoxelGridInfo info_from_json(const InfoJson& json, const std::string& path);
+[[nodiscard]] std::vector<VoxelGridInfo> infos_from_json(const InfoJson& json,
+                                                         const std::string& path);
 
 } // namespace heddle

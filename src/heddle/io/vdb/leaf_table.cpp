@@ -1,6 +1,7 @@
 #include <heddle/base/error.h>
 #include <heddle/base/parallel.h>
 #include <heddle/io/vdb/leaf_table.h>
+#include <heddle/io/vdb/level_grids.h>
 
 #include <algorithm>
 #include <bit>
@@ -44,23 +45,44 @@ void grow(LeafTable& table, const VoxelLeaf& leaf) {
     }
 }
 
+[[noreturn]] void fail(const char* what) {
+    throw Error(ErrorCode::Internal, str("write vdb: ", what));
+}
+
+/// Throws unless every array is as long as the writer will take it to be.
+void check_arrays(const VoxelBlock& block, const VoxelGridInfo& info) {
+    const std::size_t voxels = block.coverage.size(), lobes = block.lobes.size();
+    const VoxelGridFields& has = info.fields;
+    const bool masks = has_masks(has, info.level);
+    const auto is = [](const auto& array, bool wanted, std::size_t size) {
+        return !wanted || array.size() == size;
+    };
+    const bool whole = is(block.lobe_count, true, voxels) && is(block.maps, has.maps(), lobes) &&
+                       is(block.tangents, has.tangents, lobes) &&
+                       is(block.columns, masks, voxels) && is(block.moments, masks, lobes) &&
+                       is(block.map_sums, masks && has.map_sums(), lobes) &&
+                       is(block.footprints, has.footprints != 0, voxels) &&
+                       is(block.correlation, has.correlation, voxels) &&
+                       is(block.merge_order, !block.merge_order.empty(), voxels);
+    if (!whole) fail("a block's arrays are not as long as its fields say");
+}
+
 void add_leaf(LeafTable& table,
               const VoxelBlock& block,
               const VoxelLeaf& leaf,
               const std::vector<Material>& materials) {
     const std::size_t end = std::size_t{leaf.first_voxel} + leaf.voxel_count();
-    if (end > block.coverage.size() || end > block.lobe_count.size()) {
-        throw Error(ErrorCode::Internal, "write vdb: a leaf names voxels that its block lacks");
-    }
+    if (end > block.coverage.size()) fail("a leaf names voxels that its block lacks");
     std::size_t l = leaf.first_lobe;
     for (std::size_t v = leaf.first_voxel; v < end; ++v) {
         const std::uint8_t n = block.lobe_count[v];
         if (n == 0 || l + n > block.lobes.size() || block.lobes[l].material >= materials.size()) {
-            throw Error(ErrorCode::Internal, "write vdb: a voxel without lobe or material");
+            fail("a voxel without lobe or material");
         }
         const bool fiber = materials[block.lobes[l].material].kind == MaterialKind::Fiber;
         ++(fiber ? table.fiber_voxels : table.surface_voxels);
         table.most_lobes = std::max<std::int32_t>(table.most_lobes, n);
+        if (n > 2) ++(block.merge_order.empty() ? table.unmerged_voxels : table.merge_voxels);
         table.lobe_count += n;
         l += n;
     }
@@ -74,6 +96,8 @@ LeafTable combine(LeafTable a, const LeafTable& b) {
     a.voxel_count += b.voxel_count;
     a.lobe_count += b.lobe_count;
     a.most_lobes = std::max(a.most_lobes, b.most_lobes);
+    a.merge_voxels += b.merge_voxels;
+    a.unmerged_voxels += b.unmerged_voxels;
     a.fiber_voxels += b.fiber_voxels;
     a.surface_voxels += b.surface_voxels;
     return a;
@@ -88,19 +112,20 @@ auto tree_order(const LeafRef& ref) {
 } // namespace
 
 LeafTable make_leaf_table(const VoxelSource& source, const Progress& progress) {
-    const std::vector<Material>& materials = source.info().materials;
+    const VoxelGridInfo& info = source.info();
     const auto walk = [&](std::size_t begin, std::size_t end) {
         LeafTable part = empty_table();
         VoxelBlock scratch;
         for (std::size_t b = begin; b < end; ++b) {
             progress.check();
             const VoxelBlock& block = source.block(b, scratch);
+            check_arrays(block, info);
             for (std::size_t i = 0; i < block.leaves.size(); ++i) {
                 const VoxelLeaf& leaf = block.leaves[i];
                 if (leaf.voxel_count() == 0) continue;
                 part.leaves.push_back({leaf.origin, static_cast<std::uint32_t>(b),
                                        static_cast<std::uint32_t>(i), leaf.active});
-                add_leaf(part, block, leaf, materials);
+                add_leaf(part, block, leaf, info.materials);
             }
         }
         return part;
@@ -110,8 +135,11 @@ LeafTable make_leaf_table(const VoxelSource& source, const Progress& progress) {
               [](const LeafRef& a, const LeafRef& b) { return tree_order(a) < tree_order(b); });
     for (std::size_t i = 1; i < table.leaves.size(); ++i) {
         if (table.leaves[i].origin == table.leaves[i - 1].origin) {
-            throw Error(ErrorCode::Internal, "write vdb: two blocks hold the same leaf");
+            fail("two blocks hold the same leaf");
         }
+    }
+    if (table.merge_voxels > 0 && table.unmerged_voxels > 0) {
+        fail("some voxels of more than two lobes have a merge order, others have none");
     }
     return table;
 }

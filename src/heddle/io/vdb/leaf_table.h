@@ -27,9 +27,11 @@ struct LeafTable {
     Vec3i hi; ///< last active index, inclusive; meaningless without voxels
     std::int64_t voxel_count = 0;
     std::int64_t lobe_count = 0;
-    std::int32_t most_lobes = 0;     ///< of any voxel
-    std::int64_t fiber_voxels = 0;   ///< whose heaviest lobe is of a fiber material
-    std::int64_t surface_voxels = 0; ///< the others
+    std::int32_t most_lobes = 0;      ///< of any voxel
+    std::int64_t merge_voxels = 0;    ///< with more than two lobes and a merge order
+    std::int64_t unmerged_voxels = 0; ///< with more than two lobes and none
+    std::int64_t fiber_voxels = 0;    ///< whose heaviest lobe is of a fiber material
+    std::int64_t surface_voxels = 0;  ///< the others
 };
 
 /// Origin of the tree's node that holds voxel index `i`: 12 bits = child of the root, 7 = of 128^3.
@@ -49,7 +51,8 @@ struct LeafTable {
 }
 
 /// Walks the source once, on all threads.
-/// @throws Error  Internal when two blocks hold the same leaf or a leaf is out of step; Cancelled
+/// @throws Error  Internal when two blocks hold the same leaf, an array is not as long as its
+///                block's fields say, or only some voxels have a merge order; Cancelled
 [[nodiscard]] LeafTable make_leaf_table(const VoxelSource& source, const Progress& progress);
 
 } // namespace heddle

@@ -1,4 +1,5 @@
 #include <heddle/base/progress.h>
+#include <heddle/io/vdb/test_levels.h>
 #include <heddle/io/vdb/write_vdb.h>
 #include <heddle/sggx/eigen.h>
 #include <heddle/sggx/pack.h>
@@ -67,6 +68,36 @@ TEST(PlainOpenVdb, DensityAndTangentStandWhereTheVoxelsAre) {
             }
         }
     }
+}
+
+TEST(PlainOpenVdb, DensityOfLevelTwoStandsOnItsCoarserLattice) {
+    const auto path = std::filesystem::temp_directory_path() / "heddle_plain_levels.vdb";
+    const VoxelLevels levels = testing::make_levels(3);
+    VoxelGrid& coarse = testing::grid_of(levels, 2);
+    coarse.blocks[0].coverage[0] = {65535, 65535, 65535, 65535};
+    Progress progress;
+    write_vdb(levels, path.string(), progress);
+
+    openvdb::initialize();
+    openvdb::io::File file(path.string());
+    file.open(/*delayLoad=*/false);
+    const auto density = openvdb::gridPtrCast<openvdb::FloatGrid>(file.readGrid("density_level_2"));
+    file.close();
+    std::filesystem::remove(path);
+
+    EXPECT_EQ(density->getGridClass(), openvdb::GRID_FOG_VOLUME);
+    EXPECT_EQ(density->activeVoxelCount(), static_cast<openvdb::Index64>(coarse.about.voxel_count));
+    const Vec3d h = levels[0]->info().lattice.voxel_size * 4.0;
+    const openvdb::Vec3d at = density->indexToWorld(openvdb::Coord(3, -1, 0));
+    EXPECT_EQ(at, openvdb::Vec3d(3.5 * h.x, -0.5 * h.y, 0.5 * h.z));
+    const VoxelLeaf& leaf = coarse.blocks[0].leaves[0];
+    int first = 0;
+    while (((leaf.active[static_cast<std::size_t>(first >> 6)] >> (first & 63)) & 1) == 0) ++first;
+    const Vec3i o = leaf.origin;
+    const float full = density->tree().getValue(
+        openvdb::Coord(o.x + (first >> 6), o.y + ((first >> 3) & 7), o.z + (first & 7)));
+    const double cap = 0.5 / (16.0 * 16.0); // of 4 x 4 subvoxels at level 0
+    EXPECT_NEAR(full, -std::log(cap) * (1 / h.x + 1 / h.y + 1 / h.z) / 3.0, 1e-4);
 }
 
 TEST(PlainOpenVdb, VoxelsOfMicrometresKeepTheirSize) {

@@ -2,7 +2,9 @@
 
 #include <heddle/voxel/voxel_grid.h>
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace heddle {
 
@@ -19,28 +21,65 @@ inline constexpr std::int64_t kVdbWriterBytes = std::int64_t{20} << 20;
 /// some voxels. There is no tree.
 inline constexpr std::int64_t kVdbWriterBytesPerLeaf = 2 * 88;
 
-/// Predicts what write_vdb takes.
-/// @param leaves  of 8^3 voxels with at least one active
-/// @param voxels  active ones
-/// @param lobes   of all voxels; >= voxels
-/// @param fields  as the grid has them
+/// What a grid takes whatever it holds: its description, and the masks of the root's children, of
+/// which an object about the origin has eight.
+inline constexpr std::int64_t kVdbEmptyGridBytes = 1024 + 8 * 8192;
+
+/// What one level holds.
+struct VdbLevelSize {
+    std::int64_t leaves = 0; ///< of 8^3 voxels with at least one active
+    std::int64_t voxels = 0; ///< active ones
+    std::int64_t lobes = 0;  ///< of all voxels; >= voxels
+};
+
+namespace detail {
+
+/// Bytes of one level's grids.
+[[nodiscard]] inline std::int64_t
+predict_level_bytes(const VdbLevelSize& of, const VoxelGridFields& fields, bool masks) {
+    const std::int64_t per_leaf_masks = 64 + 64 + 1 + 16; // topology, buffer, flag, Blosc's head
+    const std::int64_t sums = masks ? (fields.map_sums() ? 19 : 7) : 0;
+    const std::int64_t lobe_grids = 1 + fields.albedo + fields.surface + fields.tangents + sums;
+    const std::int64_t lobe_bytes =
+        8 + 4 * fields.albedo + 4 * fields.surface + 8 * fields.tangents + 8 * sums;
+    const std::int64_t footprints = fields.footprints == 8 ? 3 : fields.footprints == 4 ? 1 : 0;
+    const std::int64_t columns = masks ? 3 : 0;
+    const std::int64_t voxel_grids = 3 + columns + footprints + fields.correlation;
+    const std::int64_t voxel_bytes =
+        4 + 6 + 8 + 8 * columns + 8 * footprints + 4 * fields.correlation;
+    const std::int64_t merges = (of.lobes - of.voxels) / 2; // at most so many have three lobes
+    const double lobes_per_voxel =
+        of.voxels > 0 ? static_cast<double>(of.lobes) / static_cast<double>(of.voxels) : 1.0;
+    const double grids = static_cast<double>(voxel_grids + (merges > 0)) +
+                         static_cast<double>(lobe_grids) * lobes_per_voxel;
+    const double bytes_per_grid =
+        static_cast<double>(of.leaves * per_leaf_masks + kVdbEmptyGridBytes);
+    return of.voxels * voxel_bytes + of.lobes * lobe_bytes + 4 * merges +
+           static_cast<std::int64_t>(grids * bytes_per_grid);
+}
+
+} // namespace detail
+
+/// Predicts what write_vdb takes for an object's levels.
+/// @param levels  finest first
+/// @param fields  as the grids have them; masks are counted for level 0 alone
+[[nodiscard]] inline VdbBytes predict_vdb_bytes(std::span<const VdbLevelSize> levels,
+                                                const VoxelGridFields& fields) {
+    VdbBytes out{kVdbWriterBytes, std::int64_t{16} << 10};
+    for (std::size_t l = 0; l < levels.size(); ++l) {
+        out.memory += levels[l].leaves * kVdbWriterBytesPerLeaf;
+        out.file += detail::predict_level_bytes(levels[l], fields, fields.masks && l == 0);
+    }
+    return out;
+}
+
+/// The same for an object of one level.
 [[nodiscard]] inline VdbBytes predict_vdb_bytes(std::int64_t leaves,
                                                 std::int64_t voxels,
                                                 std::int64_t lobes,
-                                                VoxelGridFields fields) {
-    const std::int64_t per_leaf_masks = 64 + 64 + 1 + 16; // topology, buffer, flag, Blosc's head
-    const std::int64_t fields_of_lobe = 1 + fields.albedo + fields.surface + fields.tangents;
-    const std::int64_t lobe_bytes =
-        8 + 4 * fields.albedo + 4 * fields.surface + 8 * fields.tangents;
-    const double lobes_per_voxel =
-        voxels > 0 ? static_cast<double>(lobes) / static_cast<double>(voxels) : 1.0;
-    const double masks = static_cast<double>(leaves * per_leaf_masks) *
-                         (3.0 + static_cast<double>(fields_of_lobe) * lobes_per_voxel);
-    VdbBytes out;
-    out.memory = leaves * kVdbWriterBytesPerLeaf + kVdbWriterBytes;
-    out.file = voxels * (4 + 6 + 8) + lobes * lobe_bytes + static_cast<std::int64_t>(masks) +
-               (std::int64_t{64} << 10);
-    return out;
+                                                const VoxelGridFields& fields) {
+    const VdbLevelSize one{leaves, voxels, lobes};
+    return predict_vdb_bytes({&one, 1}, fields);
 }
 
 } // namespace heddle

@@ -2,6 +2,7 @@
 #include <heddle/io/input_file.h>
 #include <heddle/io/vdb/vdb_file.h>
 
+#include <algorithm>
 #include <cstring>
 
 namespace heddle {
@@ -42,21 +43,23 @@ void skip_head(ByteReader& in, const std::string& path) {
     in.skip(36, 1, "the UUID");
 }
 
-std::map<std::string, std::string> read_metadata(ByteReader& in) {
-    std::map<std::string, std::string> out;
+void read_metadata(ByteReader& in, VdbContents& out) {
     const std::uint32_t n = in.u32("the metadata count");
     for (std::uint32_t i = 0; i < n; ++i) {
         const std::string name = read_string(in, "a metadata name");
         const std::string type = read_string(in, "a metadata type");
+        const auto at = static_cast<std::int64_t>(in.offset());
         const std::string value = read_string(in, "a metadata value");
-        if (type == "string") out[name] = value;
+        if (type == "string") {
+            out.metadata[name] = value;
+            out.value_at[name] = at;
+        }
         if (type == "int32" && value.size() == sizeof(std::int32_t)) {
             std::int32_t number = 0;
             std::memcpy(&number, value.data(), sizeof(number));
-            out[name] = std::to_string(number);
+            out.metadata[name] = std::to_string(number);
         }
     }
-    return out;
 }
 
 GridEntry read_entry(ByteReader& in) {
@@ -78,11 +81,18 @@ GridEntry read_entry(ByteReader& in) {
 
 } // namespace
 
+const GridEntry* VdbContents::find(const std::string& name) const {
+    const auto at = std::find_if(grids.begin(), grids.end(),
+                                 [&](const GridEntry& e) { return e.name == name; });
+    return at == grids.end() ? nullptr : &*at;
+}
+
 VdbContents read_contents(const std::string& path) {
     ByteReader in(path);
     skip_head(in, path);
     VdbContents out;
-    out.metadata = read_metadata(in);
+    out.bytes = static_cast<std::int64_t>(in.size_bytes());
+    read_metadata(in, out);
     const std::int32_t n = in.i32("the grid count");
     for (std::int32_t i = 0; i < n; ++i) out.grids.push_back(read_entry(in));
     if (in.remaining() != 0) {

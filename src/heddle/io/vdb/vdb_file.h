@@ -18,8 +18,13 @@ struct GridEntry {
 
 /// What a .vdb says of itself before its first grid's voxels.
 struct VdbContents {
-    std::map<std::string, std::string> metadata; ///< of the file: strings, and int32 in decimal
-    std::vector<GridEntry> grids;                ///< in the file's order
+    std::map<std::string, std::string> metadata;  ///< of the file: strings, and int32 in decimal
+    std::map<std::string, std::int64_t> value_at; ///< where a string's length, then the string, lie
+    std::vector<GridEntry> grids;                 ///< in the file's order
+    std::int64_t bytes = 0;                       ///< of the whole file
+
+    /// The grid of that name; null if there is none.
+    [[nodiscard]] const GridEntry* find(const std::string& name) const;
 };
 
 /// Reads a .vdb's table of contents and checks that every grid lies inside the file and that the

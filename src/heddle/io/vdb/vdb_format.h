@@ -1,10 +1,12 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace heddle {
 
 inline constexpr std::int32_t kFormatVersion = 1; ///< of docs/format.md
+inline constexpr std::size_t kMaxLevels = 28;     ///< 8 x 2^27 subvoxels are still an int32
 
 // File-level metadata keys
 inline constexpr const char* kFormatKey = "heddle_format";       ///< int32

@@ -1,9 +1,9 @@
 #include <heddle/io/vdb/write_vdb.h>
 
 #include <heddle/io/output_file.h>
-#include <heddle/io/vdb/grid_name.h>
 #include <heddle/io/vdb/grid_writer.h>
 #include <heddle/io/vdb/info_json.h>
+#include <heddle/io/vdb/level_grids.h>
 #include <heddle/io/vdb/vdb_format.h>
 
 #include <openvdb/io/Archive.h>
@@ -42,6 +42,22 @@ openvdb::Vec3i to_vdb(Vec3i v) {
     return {v.x, v.y, v.z};
 }
 
+/// The standard grid whose bytes are written; it never holds a voxel.
+template <typename Values>
+struct GridOf;
+template <typename Values>
+requires std::is_same_v<typename Values::Value, float>
+struct GridOf<Values> : std::type_identity<openvdb::FloatGrid> {
+};
+template <typename Values>
+requires std::is_same_v<typename Values::Value, std::int32_t>
+struct GridOf<Values> : std::type_identity<openvdb::Int32Grid> {
+};
+template <typename Values>
+requires std::is_same_v<typename Values::Value, std::int64_t>
+struct GridOf<Values> : std::type_identity<openvdb::Int64Grid> {
+};
+
 /// DirectionValues as half floats: half the bytes, and still finer than the lobe's eight bits.
 struct HalfDirectionValues : DirectionValues {
     using DirectionValues::DirectionValues;
@@ -52,14 +68,24 @@ struct HalfDirectionValues : DirectionValues {
     }
 };
 
+template <>
+struct GridOf<HalfDirectionValues> : std::type_identity<openvdb::Vec3SGrid> {};
+
+/// A level to be written and what its walk found.
+struct Level {
+    const VoxelSource& source;
+    LeafTable table;
+
+    [[nodiscard]] const VoxelGridInfo& info() const { return source.info(); }
+    [[nodiscard]] LevelGrids grids() const {
+        return {info().level, info().fields, table.most_lobes, table.merge_voxels > 0};
+    }
+};
+
 /// Writes grids into one file one after the other; openvdb::io::File takes them all at once.
 class Archive : public openvdb::io::Archive {
 public:
-    Archive(std::ostream& out,
-            const VoxelSource& source,
-            const LeafTable& table,
-            Progress& progress)
-        : out_(out), source_(source), table_(table), progress_(progress) {
+    Archive(std::ostream& out, Progress& progress) : out_(out), progress_(progress) {
         setCompression(openvdb::io::COMPRESS_BLOSC | openvdb::io::COMPRESS_ACTIVE_MASK);
     }
 
@@ -70,25 +96,20 @@ public:
         write_raw(out_, grids);
     }
 
-    /// @param GridT  the standard grid whose bytes are written; it never holds a voxel
-    template <typename GridT, typename Values>
-    void write(const std::string& name, const Values& values, bool every_voxel) {
-        if (every_voxel) {
-            write_leaves<GridT>(name, values, table_.leaves);
-        } else {
-            write_leaves<GridT>(name, values, select_leaves(source_, table_.leaves, values));
-        }
-    }
-
-private:
-    template <typename GridT, typename Values>
-    void
-    write_leaves(const std::string& name, const Values& values, std::span<const LeafRef> leaves) {
+    /// @param leaves  those with a voxel that is active in the grid, with the masks of such
+    template <typename Values>
+    void write(const Level& level,
+               const std::string& name,
+               const Values& values,
+               std::span<const LeafRef> leaves) {
+        using GridT = typename GridOf<Values>::type;
         using Value = typename GridT::ValueType;
         constexpr bool kHalf = std::is_same_v<Values, HalfDirectionValues>;
         static_assert(sizeof(Value) == sizeof(typename Values::Value) * (kHalf ? 2 : 1));
         const typename GridT::Ptr grid = GridT::create();
-        describe(*grid, name, leaves, sizeof(Value));
+        describe(*grid, level, leaves, sizeof(Value));
+        grid->setName(name);
+        if (std::is_same_v<Values, DensityValues>) grid->setGridClass(openvdb::GRID_FOG_VOLUME);
         grid->setSaveFloatAsHalf(kHalf);
         openvdb::io::GridDescriptor place(name, grid->type(), kHalf);
         place.writeHeader(out_);
@@ -100,21 +121,20 @@ private:
         grid->writeTransform(out_);
         write_topology<Value>(out_, leaves, kHalf);
         place.setBlockPos(out_.tellp());
-        write_buffers(out_, source_, leaves, values, progress_);
+        write_buffers(out_, level.source, leaves, values, progress_);
         place.setEndPos(out_.tellp());
         out_.seekp(offsets);
         place.writeStreamPos(out_);
         place.seekToEnd(out_);
     }
 
+private:
     /// What openvdb::io::File would add, without the second compression that it does to find out.
-    void describe(openvdb::GridBase& grid,
-                  const std::string& name,
-                  std::span<const LeafRef> leaves,
-                  std::size_t value_bytes) const {
-        grid.setName(name);
-        grid.setTransform(make_transform(source_.info().lattice));
-        if (name == grid_name(GridKind::Density)) grid.setGridClass(openvdb::GRID_FOG_VOLUME);
+    static void describe(openvdb::GridBase& grid,
+                         const Level& level,
+                         std::span<const LeafRef> leaves,
+                         std::size_t value_bytes) {
+        grid.setTransform(make_transform(level.info().lattice));
         std::int64_t voxels = 0;
         for (const LeafRef& leaf : leaves) {
             for (std::uint64_t w : leaf.active) voxels += std::popcount(w);
@@ -126,79 +146,140 @@ private:
         grid.insertMeta(GridBase::META_FILE_COMPRESSION,
                         openvdb::StringMetadata("blosc + active values"));
         if (voxels == 0) return;
-        grid.insertMeta(GridBase::META_FILE_BBOX_MIN, openvdb::Vec3IMetadata(to_vdb(table_.lo)));
-        grid.insertMeta(GridBase::META_FILE_BBOX_MAX, openvdb::Vec3IMetadata(to_vdb(table_.hi)));
+        grid.insertMeta(GridBase::META_FILE_BBOX_MIN,
+                        openvdb::Vec3IMetadata(to_vdb(level.table.lo)));
+        grid.insertMeta(GridBase::META_FILE_BBOX_MAX,
+                        openvdb::Vec3IMetadata(to_vdb(level.table.hi)));
     }
 
     std::ostream& out_;
-    const VoxelSource& source_;
-    const LeafTable& table_;
     Progress& progress_;
 };
 
-openvdb::MetaMap make_metadata(const VoxelGridInfo& info, const LeafTable& table) {
-    VoxelGridInfo counted = info;
-    counted.voxel_count = table.voxel_count;
-    counted.lobe_count = table.lobe_count;
-    const InfoJson json = to_json(counted, table.lo, table.hi);
+/// One level's grids.
+class LevelWriter {
+public:
+    LevelWriter(Archive& archive, const Level& level) : archive_(archive), level_(level) {}
+
+    void write() {
+        write_derived();
+        for_each_voxel_grid(level_.grids(), [&](const std::string& name, const auto& values) {
+            archive_.write(level_, name, values, leaves_of(values));
+        });
+        for (int k = 0; k < level_.table.most_lobes; ++k) {
+            const auto leaves = leaves_of(OfLobe{static_cast<std::size_t>(k)});
+            for_each_lobe_grid(level_.grids(), k, [&](const std::string& name, const auto& values) {
+                archive_.write(level_, name, values, leaves);
+            });
+        }
+    }
+
+    /// Grids that write() writes.
+    [[nodiscard]] static int count(const Level& level) {
+        int grids = 1 + (level.table.fiber_voxels > 0) + (level.table.surface_voxels > 0);
+        for_each_grid(level.grids(), [&](const std::string&, const auto&) { ++grids; });
+        return grids;
+    }
+
+private:
+    /// For programs that know nothing of the others.
+    void write_derived() {
+        const VoxelGridInfo& info = level_.info();
+        const auto name = [&](GridKind kind) { return grid_name(kind, 0, info.level); };
+        const std::span<const LeafRef> all = level_.table.leaves;
+        archive_.write(level_, name(GridKind::Density), DensityValues(info.lattice), all);
+        for (const MaterialKind kind : {MaterialKind::Fiber, MaterialKind::Surface}) {
+            const bool fiber = kind == MaterialKind::Fiber;
+            const std::int64_t voxels =
+                fiber ? level_.table.fiber_voxels : level_.table.surface_voxels;
+            if (voxels == 0) continue;
+            const HalfDirectionValues values(info.materials, kind);
+            archive_.write(level_, name(fiber ? GridKind::Tangent : GridKind::Normal), values,
+                           voxels == level_.table.voxel_count ? all : select(values));
+        }
+    }
+
+    template <typename Values>
+    std::span<const LeafRef> leaves_of(const Values& values) {
+        if (values.every_voxel()) return level_.table.leaves;
+        return select(values);
+    }
+
+    /// Holds until the next call.
+    template <typename Values>
+    std::span<const LeafRef> select(const Values& values) {
+        selected_ = select_leaves(level_.source, level_.table.leaves, values);
+        return selected_;
+    }
+
+    Archive& archive_;
+    const Level& level_;
+    std::vector<LeafRef> selected_;
+};
+
+openvdb::MetaMap make_metadata(std::span<const Level> levels) {
+    std::vector<LevelCounts> counts;
+    for (const Level& level : levels) {
+        const LeafTable& table = level.table;
+        counts.push_back({table.voxel_count, table.lobe_count, table.lo, table.hi});
+    }
+    const InfoJson json = to_json(levels[0].info(), counts);
     openvdb::MetaMap metadata;
     metadata.insertMeta(kFormatKey, openvdb::Int32Metadata(kFormatVersion));
-    metadata.insertMeta(kLevelsKey, openvdb::Int32Metadata(1));
+    metadata.insertMeta(kLevelsKey, openvdb::Int32Metadata(static_cast<int>(levels.size())));
     metadata.insertMeta(kInfoKey, openvdb::StringMetadata(json.info));
     metadata.insertMeta(kMaterialsKey, openvdb::StringMetadata(json.materials));
     metadata.insertMeta(kYarnsKey, openvdb::StringMetadata(json.yarns));
     return metadata;
 }
 
-void write_grids(std::ostream& out,
-                 const VoxelSource& source,
-                 const LeafTable& table,
-                 Progress& progress) {
-    const VoxelGridInfo& info = source.info();
-    const VoxelGridFields& has = info.fields;
-    const bool tangents = table.fiber_voxels > 0;
-    const bool normals = table.surface_voxels > 0;
-    const int per_lobe = 1 + has.albedo + has.surface + has.tangents;
-    const int grids = 2 + tangents + normals + table.most_lobes * per_lobe;
-    progress.begin("write", "leaves", static_cast<std::int64_t>(table.leaves.size()) * grids);
-
-    Archive archive(out, source, table, progress);
-    archive.write_head(make_metadata(info, table), grids);
-    archive.write<openvdb::FloatGrid>(grid_name(GridKind::Density), DensityValues(info.lattice),
-                                      true);
-    if (tangents) {
-        const HalfDirectionValues values(info.materials, MaterialKind::Fiber);
-        archive.write<openvdb::Vec3SGrid>(grid_name(GridKind::Tangent), values, !normals);
+/// Throws unless the levels are those of one lattice, finest first.
+void check_levels(std::span<const VoxelSource* const> levels) {
+    const auto fail = [](const std::string& what) {
+        throw Error(ErrorCode::Internal, "write vdb: " + what);
+    };
+    if (levels.empty() || levels.size() > kMaxLevels) {
+        fail(str(levels.size(), " levels (allowed: 1 to ", kMaxLevels, ")"));
     }
-    if (normals) {
-        const HalfDirectionValues values(info.materials, MaterialKind::Surface);
-        archive.write<openvdb::Vec3SGrid>(grid_name(GridKind::Normal), values, !tangents);
-    }
-    archive.write<openvdb::Int64Grid>(grid_name(GridKind::Coverage), CoverageValues{}, true);
-    for (int k = 0; k < table.most_lobes; ++k) {
-        const OfLobe of{static_cast<std::size_t>(k)};
-        const bool all = k == 0;
-        archive.write<openvdb::Int64Grid>(grid_name(GridKind::Lobe, k), LobeValues{of}, all);
-        if (has.albedo) {
-            archive.write<openvdb::Int32Grid>(grid_name(GridKind::Albedo, k), AlbedoValues{of},
-                                              all);
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        const VoxelGridInfo& info = levels[i]->info();
+        const Lattice want = lattice_of_level(levels[0]->info().lattice, static_cast<int>(i));
+        if (info.level != static_cast<std::int32_t>(i) ||
+            info.lattice.voxel_size != want.voxel_size ||
+            info.lattice.subvoxels != want.subvoxels) {
+            fail(str("level ", info.level, " stands at place ", i, " or is off its lattice"));
         }
-        if (has.surface) {
-            archive.write<openvdb::Int32Grid>(grid_name(GridKind::Surface, k), SurfaceValues{of},
-                                              all);
-        }
-        if (has.tangents) {
-            archive.write<openvdb::Int64Grid>(grid_name(GridKind::Aniso, k), AnisoValues{of}, all);
+        const std::int32_t cells = info.fields.footprints;
+        if (cells != 0 && cells != 4 && cells != 8) {
+            fail(str("footprints of ", cells, " cells (allowed: 0, 4, 8)"));
         }
     }
 }
 
-} // namespace
+void write_grids(std::ostream& out, std::span<const Level> levels, Progress& progress) {
+    int grids = 0;
+    std::int64_t work = 0;
+    for (const Level& level : levels) {
+        const int n = LevelWriter::count(level);
+        grids += n;
+        work += static_cast<std::int64_t>(level.table.leaves.size()) * n;
+    }
+    progress.begin("write", "leaves", work);
+    Archive archive(out, progress);
+    archive.write_head(make_metadata(levels), grids);
+    for (const Level& level : levels) LevelWriter(archive, level).write();
+}
 
-void write_vdb(const VoxelSource& source, const std::string& path, Progress& progress) {
+void write_sources(std::span<const VoxelSource* const> sources,
+                   const std::string& path,
+                   Progress& progress) {
     OutputFile file(path); // first: an output that cannot be written is said before the work
+    check_levels(sources);
     openvdb::initialize();
-    const LeafTable table = make_leaf_table(source, progress);
+    std::vector<Level> levels;
+    for (const VoxelSource* source : sources) {
+        levels.push_back({*source, make_leaf_table(*source, progress)});
+    }
     try {
         std::vector<char> buffer(kBufferBytes); // outlives the stream
         std::ofstream out;
@@ -206,7 +287,7 @@ void write_vdb(const VoxelSource& source, const std::string& path, Progress& pro
         out.rdbuf()->pubsetbuf(buffer.data(), static_cast<std::streamsize>(buffer.size()));
         errno = 0;
         out.open(file.temp_path(), std::ios::binary);
-        write_grids(out, source, table, progress);
+        write_grids(out, levels, progress);
         out.close();
     } catch (const std::ios_base::failure&) {
         file.fail("write", errno != 0 ? errno : EIO);
@@ -214,6 +295,19 @@ void write_vdb(const VoxelSource& source, const std::string& path, Progress& pro
         throw Error(ErrorCode::Internal, str("openvdb: ", e.what()), {}, {.path = path});
     }
     file.commit();
+}
+
+} // namespace
+
+void write_vdb(const VoxelLevels& levels, const std::string& path, Progress& progress) {
+    std::vector<const VoxelSource*> sources;
+    for (const std::unique_ptr<VoxelSource>& level : levels) sources.push_back(level.get());
+    write_sources(sources, path, progress);
+}
+
+void write_vdb(const VoxelSource& source, const std::string& path, Progress& progress) {
+    const VoxelSource* const one = &source;
+    write_sources({&one, 1}, path, progress);
 }
 
 } // namespace heddle

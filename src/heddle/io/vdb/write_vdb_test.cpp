@@ -5,6 +5,7 @@
 #include <heddle/io/vdb/grid_name.h>
 #include <heddle/io/vdb/predict_vdb.h>
 #include <heddle/io/vdb/read_vdb.h>
+#include <heddle/io/vdb/test_levels.h>
 #include <heddle/io/vdb/write_vdb.h>
 #include <heddle/voxel/test_grid.h>
 
@@ -17,6 +18,8 @@ namespace heddle {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::expect_same_voxels;
+using testing::make_mixed;
 
 class WriteVdb : public ::testing::Test {
 protected:
@@ -25,84 +28,6 @@ protected:
     testing::TempFolder folder_;
     Progress progress_;
 };
-
-/// 1 to 3 lobes, two kinds of material, all fields, negative indices and several nodes of each
-/// size.
-VoxelGrid make_mixed(int block_voxels = 32) {
-    testing::VoxelMap voxels;
-    CounterRandom random{3, 1};
-    for (const int shift : {-9000, -40, 0, 130, 5000}) {
-        for (int i = 0; i < 300; ++i) {
-            const auto at = [&](int n) { return shift + static_cast<int>(random.next() % 40) * n; };
-            const auto cover = [&] { return static_cast<std::uint16_t>(random.next()); };
-            testing::TestVoxel& v = voxels[{at(1), at(2), at(1)}];
-            v.coverage = {cover(), cover(), cover(), cover()};
-            v.lobes.clear();
-            const int n = 1 + static_cast<int>(random.next() % 3);
-            for (int l = 0; l < n; ++l) {
-                const Vec3f d = normalize(Vec3f{random.uniform() - 0.5f, random.uniform() - 0.5f,
-                                                random.uniform() - 0.5f});
-                v.lobes.push_back({testing::needle(d), static_cast<std::uint8_t>(200 - l * 60),
-                                   static_cast<std::uint8_t>(random.next() % 2)});
-            }
-        }
-    }
-    VoxelGrid grid;
-    grid.about.name = "mixed \"quoted\"";
-    grid.about.lattice = {{0.1, 0.25, 0.3}, 4};
-    grid.about.fields = {true, true, true};
-    grid.about.materials.resize(2);
-    grid.about.materials[0].name = "wool";
-    grid.about.materials[0].kind = MaterialKind::Fiber;
-    grid.about.materials[1].albedo = {0.1f, 0.2f, 0.3f};
-    grid.about.yarns.resize(1);
-    grid.about.yarns[0].plies = 3;
-    grid.about.yarns[0].hair_ze = {0.1f, 0.7f};
-    grid.about.command = "heddle voxelize a.bcc -o a.vdb";
-    grid.blocks = testing::make_blocks(voxels, block_voxels);
-    testing::add_fields(grid);
-    testing::count_voxels(grid);
-    return grid;
-}
-
-using Leaves = std::map<std::tuple<int, int, int>, std::pair<const VoxelBlock*, const VoxelLeaf*>>;
-
-Leaves leaves_of(const VoxelGrid& grid) {
-    Leaves leaves;
-    for (const VoxelBlock& b : grid.blocks) {
-        for (const VoxelLeaf& l : b.leaves) {
-            leaves[{l.origin.x, l.origin.y, l.origin.z}] = {&b, &l};
-        }
-    }
-    return leaves;
-}
-
-template <typename T>
-std::vector<T> slice(const std::vector<T>& all, std::size_t begin, std::size_t n) {
-    if (all.empty()) return {};
-    const auto from = all.begin() + static_cast<std::ptrdiff_t>(begin);
-    return std::vector<T>(from, from + static_cast<std::ptrdiff_t>(n));
-}
-
-void expect_same_voxels(const VoxelGrid& a, const VoxelGrid& b) {
-    const Leaves left = leaves_of(a), right = leaves_of(b);
-    ASSERT_EQ(left.size(), right.size());
-    for (const auto& [origin, from] : left) {
-        ASSERT_TRUE(right.contains(origin));
-        const auto [p, l] = from;
-        const auto [q, m] = right.at(origin);
-        ASSERT_EQ(l->active, m->active);
-        const std::size_t n = l->voxel_count();
-        const auto counts = slice(p->lobe_count, l->first_voxel, n);
-        EXPECT_EQ(slice(p->coverage, l->first_voxel, n), slice(q->coverage, m->first_voxel, n));
-        ASSERT_EQ(counts, slice(q->lobe_count, m->first_voxel, n));
-        std::size_t k = 0;
-        for (const std::uint8_t c : counts) k += c;
-        EXPECT_EQ(slice(p->lobes, l->first_lobe, k), slice(q->lobes, m->first_lobe, k));
-        EXPECT_EQ(slice(p->maps, l->first_lobe, k), slice(q->maps, m->first_lobe, k));
-        EXPECT_EQ(slice(p->tangents, l->first_lobe, k), slice(q->tangents, m->first_lobe, k));
-    }
-}
 
 TEST_F(WriteVdb, ReadsBackEveryVoxelAsItWas) {
     const VoxelGrid grid = make_mixed();
@@ -224,10 +149,11 @@ TEST_F(WriteVdb, AFullDiskIsOneLine) {
 
 TEST_F(WriteVdb, VdbPrintListsTheGrids) {
     if (std::system("command -v vdb_print > /dev/null") != 0) GTEST_SKIP() << "no vdb_print here";
-    write_vdb(make_mixed(), file("a.vdb"), progress_);
+    write_vdb(testing::make_levels(3), file("a.vdb"), progress_);
     ASSERT_EQ(std::system(("vdb_print -l " + file("a.vdb") + " > " + file("list")).c_str()), 0);
     const std::string list = testing::slurp(file("list"));
-    for (const char* text : {"Name: density", "Name: lobe_2", "Name: aniso_1", "fog volume"}) {
+    for (const char* text : {"Name: density", "Name: lobe_2", "Name: aniso_1", "fog volume",
+                             "Name: density_level_2", "Name: merge_level_1"}) {
         EXPECT_NE(list.find(text), std::string::npos) << text;
     }
 }
