@@ -23,7 +23,7 @@ std::vector<Option> level_options() {
     };
 }
 
-std::unique_ptr<LevelBuilder> level_builder(const Arguments& arguments) {
+LodOptions lod_options(const Arguments& arguments) {
     LodOptions options;
     options.method = lod_method_of(arguments.text("lod")).value();
     options.seed = static_cast<std::uint64_t>(arguments.integer("seed"));
@@ -35,8 +35,21 @@ std::unique_ptr<LevelBuilder> level_builder(const Arguments& arguments) {
         }
         options.max_levels = static_cast<int>(*count);
     }
-    if (options.max_levels == 0) return nullptr;
-    return std::make_unique<LevelBuilder>(options);
+    return options;
+}
+
+std::unique_ptr<LevelBuilder> level_builder(const Arguments& arguments) {
+    const LodOptions options = lod_options(arguments);
+    return options.max_levels == 0 ? nullptr : std::make_unique<LevelBuilder>(options);
+}
+
+VoxelLevels
+add_levels(std::unique_ptr<VoxelSource> level0, const Arguments& arguments, Progress& progress) {
+    VoxelLevels levels;
+    levels.push_back(std::move(level0));
+    const LodOptions options = lod_options(arguments);
+    if (options.max_levels == 0) return levels;
+    return rebuild_levels(std::move(levels), options, false, progress);
 }
 
 VoxelLevels finish_levels(LevelBuilder* builder, std::unique_ptr<VoxelSource> level0) {

@@ -38,8 +38,9 @@ void report_work(Report& report, const VoxelizePlan& plan) {
                str(show_count(plan.steps), " subvoxel edges of fiber length"));
     report.count("predicted voxels", plan.voxels);
     report.count("predicted touched subvoxels", plan.touched_subvoxels);
-    report.bytes("predicted file size",
-                 predict_vdb_bytes(plan.leaves, plan.voxels, plan.lobes, plan.fields).file);
+    std::vector<LevelSize> levels{{plan.leaves, plan.voxels, plan.lobes}};
+    levels.insert(levels.end(), plan.levels.begin(), plan.levels.end());
+    report.bytes("predicted file size", predict_vdb_bytes(levels, plan.fields).file);
     report.bytes("predicted peak memory", plan.peak_bytes);
     report.seconds("predicted time", plan.seconds);
 }

@@ -90,7 +90,7 @@ void run_voxelize(const Arguments& arguments, Report& report, ProgressBar& bar) 
     VoxelLevels levels = finish_levels(levels_above.get(),
                                        voxelize(geometry, options, plan, bar, levels_above.get()));
     geometry = {}; // its memory is better used by the writer
-    write_output([&] { write_vdb(*levels[0], output, bar); });
+    write_output([&] { write_vdb(levels, output, bar); });
     bar.finish();
     report.text("output", output);
     report_levels(report, levels);

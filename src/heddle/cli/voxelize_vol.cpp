@@ -1,6 +1,7 @@
 #include <heddle/cli/voxelize_vol.h>
 
 #include <heddle/base/memory.h>
+#include <heddle/cli/level_options.h>
 #include <heddle/cli/load.h>
 #include <heddle/cli/progress_bar.h>
 #include <heddle/cli/report.h>
@@ -113,17 +114,14 @@ void voxelize_volume(const Arguments& arguments, Report& report, ProgressBar& ba
     report_vol(report, layout);
     if (dry_run) return;
 
-    const VolVolume volume = read_vol(layout, options, bar);
+    VolVolume volume = read_vol(layout, options, bar);
     bar.finish();
     for (const std::string& note : volume.notes) report.note(note);
-    write_output([&] { write_vdb(*volume.grid, output, bar); });
+    const VoxelLevels levels = add_levels(std::move(volume.grid), arguments, bar);
+    write_output([&] { write_vdb(levels, output, bar); });
     bar.finish();
     report.text("output", output);
-    if (volume.grid->info().voxel_count == 0) {
-        report.note("nothing is dense: the volume is empty");
-    }
-    report.count("voxels", volume.grid->info().voxel_count);
-    report.count("lobes", volume.grid->info().lobe_count);
+    report_levels(report, levels);
     std::error_code ignored;
     const auto size = std::filesystem::file_size(output, ignored);
     report.bytes("file size", ignored ? 0 : static_cast<std::int64_t>(size));

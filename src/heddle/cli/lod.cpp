@@ -1,0 +1,55 @@
+#include <heddle/base/memory.h>
+#include <heddle/cli/commands.h>
+#include <heddle/cli/level_options.h>
+#include <heddle/cli/load.h>
+#include <heddle/cli/progress_bar.h>
+#include <heddle/cli/report.h>
+#include <heddle/io/vdb/read_vdb.h>
+#include <heddle/io/vdb/write_vdb.h>
+
+#include <chrono>
+
+namespace heddle::cli {
+namespace {
+
+void run_lod(const Arguments& arguments, Report& report, ProgressBar& bar) {
+    const auto start = std::chrono::steady_clock::now();
+    const std::string output = arguments.text("output");
+    LodOptions options = lod_options(arguments);
+    if (arguments.given("lobes")) {
+        options.max_lobes = static_cast<int>(arguments.integer("lobes"));
+    }
+    check_output(output, ".vdb");
+    bar.begin("read", "files", 1);
+    VoxelLevels levels = read_levels(arguments.text("FILE"));
+    bar.check();
+    levels = rebuild_levels(std::move(levels), options, arguments.given("exact"), bar);
+    write_output([&] { write_vdb(levels, output, bar); });
+    bar.finish();
+    report.text("output", output);
+    report_levels(report, levels);
+    if (levels.front()->info().approximate) {
+        report.note("levels are approximate: the file holds no columns and sums (--keep-masks)");
+    }
+    for (const auto& [stage, seconds] : bar.stages()) report.seconds(stage, seconds);
+    const std::chrono::duration<double> total = std::chrono::steady_clock::now() - start;
+    report.seconds("total", total.count());
+    report.bytes("peak memory", peak_resident_bytes());
+}
+
+} // namespace
+
+Command lod_command() {
+    std::vector<Option> options{
+        {"FILE", "", "", any_text(), "", "a .vdb that voxelize wrote", true},
+        {"-o, --output", "OUT.vdb", "", any_text(), "", "where the volume goes", true},
+    };
+    for (const Option& row : level_options()) options.push_back(row);
+    options.push_back({"--lobes", "K", "(as the file)", integer(1, 8), "",
+                       "most orientation lobes in a voxel of the levels above the finest"});
+    options.push_back({"--exact", "", "", flag(), "",
+                       "refuses a file without --keep-masks, whose levels would be approximate"});
+    return {"lod", "builds the levels of detail of a .vdb again", options, run_lod};
+}
+
+} // namespace heddle::cli
