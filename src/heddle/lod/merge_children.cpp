@@ -2,19 +2,12 @@
 
 #include <heddle/base/random.h>
 #include <heddle/sggx/moments.h>
+#include <heddle/sggx/wasserstein.h>
 
 #include <cmath>
 
 namespace heddle {
 namespace {
-
-SymmetricMatrix mean_moment(const DirectionSums& sums) {
-    const double inv = 1.0 / static_cast<double>(sums.weight);
-    const auto entry = [&](int k) {
-        return static_cast<float>(static_cast<double>(sums.moment[k]) * inv);
-    };
-    return {entry(0), entry(1), entry(2), entry(3), entry(4), entry(5)};
-}
 
 SymmetricMatrix scaled(const SymmetricMatrix& a, float s) {
     return {a.xx * s, a.yy * s, a.zz * s, a.xy * s, a.xz * s, a.yz * s};
@@ -54,7 +47,7 @@ Shares share(LobePool& pool) {
     }
     shares.normals = pool.sums[static_cast<std::size_t>(heaviest)].normals;
     for (std::size_t i = 0; i < static_cast<std::size_t>(pool.count); ++i) {
-        if (pool.sums[i].normals != shares.normals) swap_kind(pool.sums[i]);
+        if (pool.sums[i].normals != shares.normals) pool.sums[i] = turned_across(pool.sums[i]);
         shares.of[i] = static_cast<float>(static_cast<double>(pool.sums[i].weight) / total);
     }
     return shares;
@@ -69,7 +62,7 @@ void merge_by_mean(LobePool& pool,
     const Shares shares = share(pool);
     SymmetricMatrix sum;
     for (std::size_t i = 0; i < static_cast<std::size_t>(pool.count); ++i) {
-        sum = plus(sum, scaled(moment_of(mean_moment(pool.sums[i])), shares.of[i]));
+        sum = plus(sum, scaled(moment_of(detail::mean_moment(pool.sums[i])), shares.of[i]));
     }
     reduce(pool, 1, with_maps, ByMoments{}); // weight, material and maps
     set_moment(pool.sums[0], finish(sum));
@@ -91,7 +84,7 @@ void choose_child(LobePool& pool,
     for (std::size_t i = 0; i < static_cast<std::size_t>(pool.count); ++i) {
         total += pool.sums[i].weight;
     }
-    const SymmetricMatrix M = mean_moment(pool.sums[chosen]);
+    const SymmetricMatrix M = detail::mean_moment(pool.sums[chosen]);
     const std::int64_t part = pool.sums[chosen].weight;
     pool.sums[0] = pool.sums[chosen];
     pool.sums[0].weight = total;
@@ -108,8 +101,11 @@ std::uint32_t merge_children(LobePool& pool,
                              std::uint64_t seed) {
     const bool maps = options.with_maps;
     switch (options.method) {
-    case LodMethod::Moments: return reduce(pool, options.max_lobes, maps, ByMoments{});
-    case LodMethod::Wasserstein: return reduce(pool, options.max_lobes, maps, ByMoments{});
+    case LodMethod::Moments: return reduce(pool, options.max_lobes, maps, ByMoments{}, kSameLobe);
+    case LodMethod::Wasserstein:
+        return reduce(pool, options.max_lobes, maps, [&](DirectionSums* lobes, int count) {
+            return WassersteinLobes(std::span(lobes, static_cast<std::size_t>(count)), seed);
+        });
     case LodMethod::Single: reduce(pool, 1, maps, ByMoments{}); break;
     case LodMethod::Naive:
         merge_by_mean(

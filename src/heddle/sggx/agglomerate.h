@@ -15,7 +15,8 @@ struct LobeMerge {
     std::uint8_t from = 0;
 };
 
-/// Merges the closest pair of `count` lobes until `keep` are left.      [Fabre26, 4.4, eq. 18]
+/// Merges the closest pair of `count` lobes until `keep` are left, and on while it is closer than
+/// `same`.                                                              [Fabre26, 4.4, eq. 18]
 ///
 /// Each lobe remembers the lobe of higher number that is closest to it, so that a merge costs about
 /// 2 x count distances. Of equally close pairs the first in (lower, higher) number is taken: the
@@ -25,10 +26,12 @@ struct LobeMerge {
 /// @param keep     1 or more
 /// @param lobes    float distance(int i, int j), i < j: >= 0, asked for lobes that are there;
 ///                 void merge(int into, int from): makes lobe `into` the merged one
-/// @param merges   receives count - keep merges, in their order
+/// @param merges   receives at most count - 1 merges, in their order
+/// @param same     distance below which lobes need not stay apart; 0: merges just to `keep`
 /// @return         number of merges
 template <typename Lobes>
-HEDDLE_HD inline int agglomerate(int count, int keep, Lobes& lobes, LobeMerge* merges) {
+HEDDLE_HD inline int
+agglomerate(int count, int keep, Lobes& lobes, LobeMerge* merges, float same = 0.0f) {
     float least[kMaxPool];
     std::int8_t nearest[kMaxPool];
     std::int8_t left[kMaxPool]; // numbers of the lobes that are there, ascending
@@ -44,13 +47,15 @@ HEDDLE_HD inline int agglomerate(int count, int keep, Lobes& lobes, LobeMerge* m
             }
         }
     };
-    for (int a = 0; a < count && count > keep; ++a) find_nearest(a, count);
+    if (count <= keep && !(same > 0.0f)) return 0;
+    for (int a = 0; a < count; ++a) find_nearest(a, count);
     int made = 0;
-    for (int n = count; n > keep && n > 1; --n) {
+    for (int n = count; n > 1; --n) {
         int into = left[0];
         for (int a = 1; a + 1 < n; ++a) {
             if (least[left[a]] < least[into]) into = left[a];
         }
+        if (n <= keep && !(least[into] < same)) break;
         const int from = nearest[into];
         lobes.merge(into, from);
         merges[made++] = {static_cast<std::uint8_t>(into), static_cast<std::uint8_t>(from)};

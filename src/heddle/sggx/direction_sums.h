@@ -4,12 +4,13 @@
 
 namespace heddle {
 
-/// Directions of one material that were pooled: integers, so that no order of adding shows.
+/// The exact second moment of the directions that were pooled into a lobe, with what they are.
 struct DirectionSums {
-    std::int64_t moment[6]{}; ///< sum of weight x d d^T: xx yy zz xy xz yz; its trace is the weight
-    std::int64_t weight = 0;
-    std::uint32_t material = 0;
-    bool normals = false; ///< directions are normals (a surface's), else tangents (a fiber's)
+    std::int64_t moment[6]{};   ///< sum of weight x d d^T: xx yy zz xy xz yz
+    std::int64_t weight = 0;    ///< sum of weights; > 0 of a lobe that is there
+    std::uint32_t material = 0; ///< id
+    bool normals = false;       ///< directions are normals of a surface; else tangents of fibers
+    friend bool operator==(const DirectionSums&, const DirectionSums&) = default;
 };
 
 } // namespace heddle

@@ -2,6 +2,7 @@
 
 #include <heddle/base/platform.h>
 #include <heddle/base/random.h>
+#include <heddle/base/trig.h>
 #include <heddle/base/vec.h>
 #include <heddle/sggx/sggx.h>
 
@@ -96,6 +97,40 @@ struct SggxFactor {
         return w * ((point & 1) != 0 ? -1.0f / size : 1.0f / size);
     }
     return normalize(A.column[0]); // S = 0
+}
+
+/// Density of the directions that are seen from `wi`, per steradian over the whole sphere.
+///
+/// D_wi(w) = <w . wi> D(w) / (sigma(wi) / 2), <> clamped at 0       [Heitz15]
+///
+/// @param S      positive definite, scaled as SymmetricMatrix says
+/// @param wi, w  unit
+[[nodiscard]] HEDDLE_HD inline float vndf(const SggxMatrix& S, Vec3f wi, Vec3f w) {
+    const float cosine = dot(w, wi);
+    return cosine > 0.0f ? 2.0f * cosine * ndf(S, w) / projected_area(S, wi) : 0.0f;
+}
+
+/// Draws a direction with density vndf(S, wi), from S's factor: one draw, nothing rejected.
+///
+/// w = A u / |A u| has density D if u has density ~ |A u|; seen from wi, ~ |A u| <w . wi> =
+/// <u . A^T wi>: a cosine lobe about A^T wi. Equal in distribution to
+/// [Heitz15]'s.
+///
+/// @param A   factor(S)
+/// @param wi  unit
+/// @return    unit, on wi's side
+[[nodiscard]] HEDDLE_HD inline Vec3f
+sample_vndf(const SggxFactor& A, Vec3f wi, CounterRandom& random) {
+    const Vec3f v =
+        normalize(Vec3f{dot(A.column[0], wi), dot(A.column[1], wi), dot(A.column[2], wi)});
+    const Vec3f p = any_perpendicular(v);
+    const Vec3f q = cross(v, p);
+    const std::uint64_t draw = random.next();
+    const float square = to_unit_float(draw); // of the distance from the lobe's axis
+    const SinCos turn = sincos_turns(static_cast<double>(to_unit_float(draw << 24)));
+    const Vec3f u =
+        (p * turn.cos + q * turn.sin) * std::sqrt(square) + v * std::sqrt(1.0f - square);
+    return normalize(A.column[0] * u.x + A.column[1] * u.y + A.column[2] * u.z, wi);
 }
 
 } // namespace heddle

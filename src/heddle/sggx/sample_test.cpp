@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 namespace heddle {
 namespace {
 
@@ -41,6 +43,25 @@ double chi_squared_z(const std::vector<double>& observed, const std::vector<doub
     return (std::cbrt(chi / degrees) - (1.0 - k)) / std::sqrt(k);
 }
 
+/// Samples that a density per steradian puts into each bin.
+template <typename Density>
+std::vector<double> expect_counts(const Density& density, int samples) {
+    std::vector<double> expected(kRows * kColumns);
+    constexpr int kFine = 24; // points per bin and axis
+    for (int i = 0; i < kRows * kFine; ++i) {
+        const double z = (2.0 * i + 1.0) / (kRows * kFine) - 1.0;
+        const double r = std::sqrt(1.0 - z * z);
+        for (int j = 0; j < kColumns * kFine; ++j) {
+            const double phi = 2.0 * kPi * (j + 0.5) / (kColumns * kFine);
+            const Vec3d w{r * std::cos(phi), r * std::sin(phi), z};
+            expected[static_cast<std::size_t>(bin_of(w))] +=
+                samples * static_cast<double>(density(to_float(w))) * 4.0 * kPi /
+                (kRows * kColumns * kFine * kFine);
+        }
+    }
+    return expected;
+}
+
 const Vec3d kShapes[] = {{1, 1, 1}, {1, .5, .2}, {1, .2, .2}, {1, 1, .1}, {1, .3, .1}};
 
 TEST(SampleNdf, SamplesFollowTheDensity) {
@@ -48,20 +69,9 @@ TEST(SampleNdf, SamplesFollowTheDensity) {
     for (const Vec3d& shape : kShapes) {
         const SggxMatrix S = test::random_sggx(shape, random);
         constexpr int kSamples = 200000;
-        std::vector<double> expected(kRows * kColumns);
+        const std::vector<double> expected =
+            expect_counts([&](Vec3f w) { return ndf(S, w); }, kSamples);
         std::vector<double> observed(kRows * kColumns);
-        constexpr int kFine = 24; // points per bin and axis
-        for (int i = 0; i < kRows * kFine; ++i) {
-            const double z = (2.0 * i + 1.0) / (kRows * kFine) - 1.0;
-            const double r = std::sqrt(1.0 - z * z);
-            for (int j = 0; j < kColumns * kFine; ++j) {
-                const double phi = 2.0 * kPi * (j + 0.5) / (kColumns * kFine);
-                const Vec3d w{r * std::cos(phi), r * std::sin(phi), z};
-                expected[static_cast<std::size_t>(bin_of(w))] +=
-                    kSamples * static_cast<double>(ndf(S, to_float(w))) * 4.0 * kPi /
-                    (kRows * kColumns * kFine * kFine);
-            }
-        }
         const SggxFactor A = factor(S);
         for (int i = 0; i < kSamples; ++i) {
             observed[static_cast<std::size_t>(bin_of(to_double(sample_ndf(A, random))))] += 1.0;
@@ -100,6 +110,34 @@ TEST(SampleNdf, AMatrixOfRankOneGivesItsAxisAndZeroGivesAUnitVector) {
         EXPECT_NEAR(std::fabs(sample_ndf(needle, random).y), 1.0f, 1e-6f);
     }
     EXPECT_EQ(length(sample_ndf(factor({}), random)), 1.0f);
+}
+
+TEST(SampleVndf, SamplesFollowTheDensityWhichIntegratesToOne) {
+    CounterRandom random{4, 5};
+    for (const Vec3d& shape : kShapes) {
+        const SggxMatrix S = test::random_sggx(shape, random);
+        const Vec3f wi = to_float(test::random_direction(random));
+        constexpr int kSamples = 200000;
+        const std::vector<double> expected =
+            expect_counts([&](Vec3f w) { return vndf(S, wi, w); }, kSamples);
+        EXPECT_NEAR(std::accumulate(expected.begin(), expected.end(), 0.0) / kSamples, 1.0, 2e-3);
+        std::vector<double> observed(kRows * kColumns);
+        const SggxFactor A = factor(S);
+        for (int i = 0; i < kSamples; ++i) {
+            const Vec3f w = sample_vndf(A, wi, random);
+            EXPECT_GE(dot(w, wi), -1e-6f);
+            observed[static_cast<std::size_t>(bin_of(to_double(w)))] += 1.0;
+        }
+        EXPECT_LT(chi_squared_z(observed, expected), 4.0) << shape.y << ' ' << shape.z;
+    }
+}
+
+TEST(SampleVndf, SeenFromAcrossANeedleIsItsAxis) {
+    CounterRandom random{4, 6};
+    const SggxFactor needle = factor({0, 0, 1, 0, 0, 0});
+    const Vec3f wi = normalize(Vec3f{.8f, 0, .6f});
+    for (int i = 0; i < 100; ++i) EXPECT_NEAR(sample_vndf(needle, wi, random).z, 1.0f, 1e-6f);
+    EXPECT_NEAR(length(sample_vndf(factor({}), wi, random)), 1.0f, 1e-6f);
 }
 
 } // namespace

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 namespace heddle {
 
@@ -66,35 +67,46 @@ std::uint32_t line_up(LobePool& pool, bool with_maps, const MakeLobes& make_lobe
     return order.targets;
 }
 
+/// Moves the lobes that `made` merges left to the front, in their order.
+inline void compact(LobePool& pool, const LobeMerge* merges, int made, bool with_maps) {
+    std::uint64_t gone = 0;
+    for (int k = 0; k < made; ++k) gone |= std::uint64_t{1} << merges[k].from;
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(pool.count); ++i) {
+        if ((gone >> i & 1) != 0) continue;
+        pool.sums[left] = pool.sums[i];
+        if (with_maps) pool.maps[left] = pool.maps[i];
+        ++left;
+    }
+    pool.count = static_cast<int>(left);
+}
+
 /// Merges the pool's closest lobes until `keep` are left, at most kMaxLobes, and lines them up.
-/// @return  as line_up
+/// @param same  distance below which lobes merge even so (agglomerate.h)
+/// @return      as line_up
 template <typename MakeLobes>
-std::uint32_t reduce(LobePool& pool, int keep, bool with_maps, const MakeLobes& make_lobes) {
-    if (pool.count > keep) {
+std::uint32_t
+reduce(LobePool& pool, int keep, bool with_maps, const MakeLobes& make_lobes, float same = 0.0f) {
+    if (pool.count > keep || (pool.count > 1 && same > 0.0f)) {
         std::array<LobeMerge, kMaxPool> merges;
         auto lobes = make_lobes(pool.sums.data(), pool.count);
-        const int made = agglomerate(pool.count, keep, lobes, merges.data());
-        std::array<bool, kMaxPool> gone{};
-        for (int k = 0; k < made; ++k) {
-            const LobeMerge& m = merges[static_cast<std::size_t>(k)];
-            gone[m.from] = true;
-            if (with_maps) add_maps(pool.maps[m.into], pool.maps[m.from]);
+        const int made = agglomerate(pool.count, keep, lobes, merges.data(), same);
+        if (with_maps) {
+            for (int k = 0; k < made; ++k) {
+                const LobeMerge& m = merges[static_cast<std::size_t>(k)];
+                add_maps(pool.maps[m.into], pool.maps[m.from]);
+            }
         }
-        std::size_t kept = 0;
-        for (std::size_t i = 0; i < static_cast<std::size_t>(pool.count); ++i) {
-            if (gone[i]) continue;
-            pool.sums[kept] = pool.sums[i];
-            if (with_maps) pool.maps[kept] = pool.maps[i];
-            ++kept;
-        }
-        pool.count = static_cast<int>(kept);
+        compact(pool, merges.data(), made, with_maps);
     }
     return line_up(pool, with_maps, make_lobes);
 }
 
 /// The default way of reduce() and line_up(): by second moments.
 struct ByMoments {
-    MomentLobes operator()(DirectionSums* lobes, int count) const { return {lobes, count}; }
+    MomentLobes operator()(DirectionSums* lobes, int count) const {
+        return MomentLobes(std::span(lobes, static_cast<std::size_t>(count)));
+    }
 };
 
 /// Fits that were just made: the voxels that one flat triangle passes alone have few different sums.
