@@ -38,6 +38,7 @@ VoxelizeOptions voxelize_options(const Arguments& arguments, const std::string& 
     }
     if (arguments.given("memory")) options.memory_bytes = arguments.bytes("memory");
     options.footprints = static_cast<std::int32_t>(arguments.integer("footprints"));
+    options.correlation = arguments.given("correlation");
     options.keep_sums = arguments.given("keep-masks");
     options.seed = static_cast<std::uint64_t>(arguments.integer("seed"));
     const std::string folder = std::filesystem::path(output).parent_path().string();
@@ -134,6 +135,8 @@ Command voxelize_command() {
     add({
         {"--footprints", "N", "0", one_of({"0", "4", "8"}), "cells per axis",
          "keeps which parts of a voxel's faces are covered, for transport; 0 = no"},
+        {"--correlation", "", "", flag(), "",
+         "keeps how far neighbouring voxels hide the same, for transport: a byte a face"},
         {"--keep-masks", "", "", flag(), "",
          "stores columns and sums: 'heddle lod' then builds the same levels again, bit for bit"},
         {"--memory", "BYTES", "(half of what is free)", bytes(), "K, M, G",

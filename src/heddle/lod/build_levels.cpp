@@ -2,12 +2,14 @@
 
 #include <heddle/base/error.h>
 #include <heddle/base/parallel.h>
+#include <heddle/lod/correlation.h>
 #include <heddle/lod/join_pieces.h>
 #include <heddle/lod/upper_levels.h>
 #include <heddle/voxel/block_keeper.h>
 #include <heddle/voxel/z_order.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <mutex>
@@ -33,7 +35,10 @@ level_options(const LodOptions& options, const VoxelGridInfo& info, bool with_co
     LevelOptions out;
     out.fields = info.fields;
     out.fields.masks = false;
-    if (!with_columns || options.method == LodMethod::Naive) out.fields.footprints = 0;
+    if (!with_columns || options.method == LodMethod::Naive) {
+        out.fields.footprints = 0;
+        out.fields.correlation = false;
+    }
     out.merge = {.method = options.method,
                  .max_lobes = options.max_lobes > 0 ? options.max_lobes : info.max_lobes,
                  .with_maps = info.fields.map_sums()};
@@ -137,6 +142,11 @@ std::unique_ptr<VoxelGrid> make_grid(const VoxelGridInfo& info, std::vector<Voxe
     return grid;
 }
 
+bool has_correlation(const VoxelGrid& grid) {
+    return std::any_of(grid.blocks.begin(), grid.blocks.end(),
+                       [](const VoxelBlock& b) { return !b.correlation.empty(); });
+}
+
 std::int64_t count_leaves(const OpenLevel& level) {
     const int n = level.edge();
     std::array<bool, 64> there{};
@@ -186,6 +196,7 @@ struct LevelBuilder::State {
     Workspaces workspaces;
     std::mutex mutex;
     VoxelBox box;
+    std::array<std::vector<KeptColumns>, kBlockLevel + 1> kept; ///< with fields.correlation
 
     void store(int level, std::size_t number, VoxelBlock& block) {
         if (level <= kWholeLeafLevel) {
@@ -242,6 +253,9 @@ void LevelBuilder::begin(const VoxelGridInfo& info,
         blocks, s.top, s.options,
         [&s](int level, std::size_t number, VoxelBlock& block) { s.store(level, number, block); });
     for (int l = kBlockLevel + 1; l <= s.top; ++l) s.pieces.emplace_back(s.upper->count(l));
+    if (s.options.fields.correlation) {
+        for (std::vector<KeptColumns>& of_level : s.kept) of_level.resize(blocks.size());
+    }
 }
 
 void LevelBuilder::visit(std::size_t rank, const VoxelBlock& block) {
@@ -251,10 +265,14 @@ void LevelBuilder::visit(std::size_t rank, const VoxelBlock& block) {
         const int last = std::min(s.top, kBlockLevel);
         work.build(block, s.blocks[rank], last, s.options);
         for (int l = 1; l <= last; ++l) {
+            const auto at = static_cast<std::size_t>(l);
             VoxelBlock stored;
-            store_level(work.level[static_cast<std::size_t>(l)], s.options, work.pool, work.fits,
-                        stored);
+            store_level(work.level[at], s.options, work.pool, work.fits, stored,
+                        s.options.fields.correlation ? &s.kept[at][rank] : nullptr);
             s.store(l, rank, stored);
+        }
+        if (s.options.fields.correlation) { // level 0 is opened in the stored order
+            s.kept[0][rank] = work.level[0].columns;
         }
         if (s.top > kBlockLevel) top = take_upper(work.level[kBlockLevel]);
         VoxelBox box;
@@ -265,18 +283,37 @@ void LevelBuilder::visit(std::size_t rank, const VoxelBlock& block) {
     s.upper->take(rank, std::move(top));
 }
 
+/// Fills what the voxels of a level share with their neighbours; its columns are dropped.
+void LevelBuilder::fill_shared(int level, std::span<VoxelBlock> blocks) {
+    State& s = *state_;
+    if (!s.options.fields.correlation) return;
+    const double edge = std::ldexp(static_cast<double>(s.options.lattice.subvoxels), level);
+    if (level > kBlockLevel) {
+        fill_upper_correlation(s.upper->index_of(level), blocks, s.upper->take_columns(level),
+                               edge * edge);
+        return;
+    }
+    std::vector<KeptColumns>& kept = s.kept[static_cast<std::size_t>(level)];
+    fill_correlation(s.blocks, blocks, kept, level, edge * edge);
+    kept = {};
+}
+
 VoxelLevels LevelBuilder::finish(std::unique_ptr<VoxelSource> level0) {
     State& s = *state_;
     VoxelLevels levels;
     levels.push_back(std::move(level0));
     const int needed = s.box.lo.x > s.box.hi.x ? 0 : level_count(s.box.lo, s.box.hi);
     const int top = std::min(s.top, needed);
+    auto* finest = dynamic_cast<VoxelGrid*>(levels[0].get());
+    if (finest != nullptr && !has_correlation(*finest)) fill_shared(0, finest->blocks);
     for (int l = 1; l <= top; ++l) {
         std::unique_ptr<VoxelSource> made;
         if (l <= kWholeLeafLevel) {
             made = s.whole[static_cast<std::size_t>(l - 1)]->finish();
+            if (auto* grid = dynamic_cast<VoxelGrid*>(made.get())) fill_shared(l, grid->blocks);
         } else {
             const auto at = static_cast<std::size_t>(l - kWholeLeafLevel - 1);
+            fill_shared(l, s.pieces[at]);
             made = make_grid(s.info, join_pieces(std::move(s.pieces[at])));
         }
         levels.push_back(std::move(made));
@@ -340,8 +377,19 @@ void LevelBuilder::plan(std::span<const Vec3i> blocks, double scale, VoxelizePla
         const std::int64_t whole = std::int64_t{3} << (2 * std::min(l - kBlockLevel, 20));
         runs += 2 * std::min(whole, rows);
     }
+    std::int64_t kept = 0; // all columns of all levels
+    if (plan.fields.correlation) {
+        kept = 24 * plan.voxels;
+        for (int l = 1; l <= std::min(top, kBlockLevel); ++l) {
+            kept +=
+                (std::int64_t{24} << (2 * l)) * plan.levels[static_cast<std::size_t>(l - 1)].voxels;
+        }
+        if (top > kBlockLevel) { // each level above holds half of the one below, or less
+            kept += (std::int64_t{24} << (2 * kBlockLevel)) * plan.levels[kBlockLevel - 1].voxels;
+        }
+    }
     const auto count = static_cast<std::int64_t>(blocks.size());
-    plan.visitor_bytes = thread_count() * sample_->workspace_bytes +
+    plan.visitor_bytes = kept + thread_count() * sample_->workspace_bytes +
                          runs * static_cast<std::int64_t>(sizeof(UpperVoxel::Run::element_type)) +
                          count * kPieceBytes * std::clamp(top - kWholeLeafLevel, 0, 4);
     plan.visitor_seconds = top > 0 ? kSecondsPerVoxel * static_cast<double>(plan.voxels) : 0.0;

@@ -52,6 +52,8 @@ public:
     [[nodiscard]] VoxelLevels finish(std::unique_ptr<VoxelSource> level0);
 
 private:
+    void fill_shared(int level, std::span<VoxelBlock> blocks);
+
     struct State;
     struct Sample;
     LodOptions options_;

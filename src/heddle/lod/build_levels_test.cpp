@@ -91,10 +91,10 @@ double moment_error(const Truth& truth, const Content& stored) {
 
 TEST(BuildLevels, CoverageAndOccupancyAreTheUnionOfAllColumnsBelow) {
     VoxelizeOptions options = with_sums(150);
-    options.voxel_size = {0.02, 0.03, 0.045};
+    options.voxel_size = {0.04, 0.06, 0.09};
     options.voxels = 0;
     const VoxelLevels levels = build(swatch(), options);
-    ASSERT_GE(levels.size(), 8u);
+    ASSERT_GE(levels.size(), 7u);
     const std::int64_t n = levels[0]->info().lattice.subvoxels;
     for (std::size_t l = 1; l < levels.size(); ++l) {
         const std::map<Key, Truth> truths = pool(*levels[0], static_cast<int>(l));
@@ -116,7 +116,7 @@ TEST(BuildLevels, CoverageAndOccupancyAreTheUnionOfAllColumnsBelow) {
 }
 
 TEST(BuildLevels, TheStoredMixtureHasThePooledSecondMoment) {
-    const VoxelLevels levels = build(swatch(), with_sums(150));
+    const VoxelLevels levels = build(swatch(), with_sums(100));
     for (std::size_t l = 0; l < levels.size(); ++l) {
         std::vector<double> errors;
         const LevelContent content = content_of(*levels[l]);
@@ -126,6 +126,40 @@ TEST(BuildLevels, TheStoredMixtureHasThePooledSecondMoment) {
         std::sort(errors.begin(), errors.end());
         EXPECT_LT(errors.back(), 0.01) << "level " << l;
         EXPECT_LT(errors[errors.size() / 2], 0.003) << "level " << l;
+    }
+}
+
+TEST(BuildLevels, CorrelationIsThatOfTheUnionWithTheNextVoxel) {
+    VoxelizeOptions options = with_sums(60);
+    options.correlation = true;
+    const VoxelLevels levels = build(swatch(), options);
+    for (std::size_t l = 0; l < levels.size(); ++l) {
+        const std::map<Key, Truth> truths = pool(*levels[0], static_cast<int>(l));
+        const double edge = static_cast<double>(8 << l);
+        int between = 0;
+        for (const auto& [at, content] : content_of(*levels[l])) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                auto [x, y, z] = at;
+                (axis == 0 ? x : axis == 1 ? y : z) += 1;
+                const auto next = truths.find({x, y, z});
+                int expected = 0;
+                if (next != truths.end()) {
+                    auto both = truths.at(at).columns[axis];
+                    const auto first = static_cast<double>(both.size()) / (edge * edge);
+                    const auto& other = next->second.columns[axis];
+                    const auto second = static_cast<double>(other.size()) / (edge * edge);
+                    both.insert(other.begin(), other.end());
+                    const double u = static_cast<double>(both.size()) / (edge * edge);
+                    const double apart = first + second - first * second;
+                    const double room = apart - std::max(first, second);
+                    const double rho = std::clamp((apart - u) / room, 0.0, 1.0);
+                    expected = room > 0.0 ? static_cast<int>(rho * 255.0 + 0.5) : 255;
+                    between += expected > 0 && expected < 255;
+                }
+                ASSERT_EQ(content.correlation[axis], expected) << "level " << l << " axis " << axis;
+            }
+        }
+        EXPECT_GT(between, l + 1 < levels.size() ? 3 : -1) << "level " << l;
     }
 }
 
@@ -208,6 +242,7 @@ TEST(BuildLevels, ARegionGivesTheVoxelsOfTheWhole) {
 TEST(BuildLevels, ARebuildWithMasksGivesTheSameBits) {
     VoxelizeOptions options = with_sums(120);
     options.footprints = 4;
+    options.correlation = true;
     VoxelLevels first = build(swatch(), options);
     const std::vector<LevelContent> before = contents_of(first);
     Progress silent;
@@ -277,9 +312,9 @@ TEST(BuildLevels, CrossedBundlesKeepTwoLobesUpToTheTop) {
     for (const LodMethod method : {LodMethod::Moments, LodMethod::Wasserstein}) {
         LodOptions lod;
         lod.method = method;
-        VoxelizeOptions options = with_sums(method == LodMethod::Moments ? 128 : 24);
+        VoxelizeOptions options = with_sums(method == LodMethod::Moments ? 128 : 12);
         const VoxelLevels levels = build(geometry_of(set), options, lod);
-        ASSERT_GE(levels.size(), 5u);
+        ASSERT_GE(levels.size(), 3u);
         for (std::size_t l = 1; l < levels.size(); ++l) {
             bool two = false;
             for_each_voxel(*levels[l], [&](const FoundVoxel& v) {
@@ -316,8 +351,8 @@ TEST(BuildLevels, EveryMethodBuildsEveryLevelAndBaselinesHaveOneLobe) {
     for (std::size_t m = 0; m < kLodMethodNames.size(); ++m) {
         LodOptions lod;
         lod.method = static_cast<LodMethod>(m);
-        const VoxelLevels levels = build(swatch(), with_sums(24), lod);
-        ASSERT_GE(levels.size(), 5u);
+        const VoxelLevels levels = build(swatch(), with_sums(16), lod);
+        ASSERT_GE(levels.size(), 4u);
         const bool mixture = m <= static_cast<std::size_t>(LodMethod::Wasserstein);
         EXPECT_EQ(levels[1]->info().lod, kLodMethodNames[m]);
         std::size_t most = 0;

@@ -313,7 +313,8 @@ void store_level(const OpenLevel& level,
                  const LevelOptions& options,
                  LobePool& pool,
                  RecentFits& fits,
-                 VoxelBlock& out) {
+                 VoxelBlock& out,
+                 std::vector<std::uint64_t>* kept) {
     const int edge = level.edge();
     for (int lx = 0; lx < edge; lx += 8) {
         for (int ly = 0; ly < edge; ly += 8) {
@@ -332,6 +333,7 @@ void store_level(const OpenLevel& level,
                             leaf.active[static_cast<std::size_t>(at.x)] |= std::uint64_t{1}
                                                                            << (at.y * 8 + at.z);
                             append_voxel(level, slot, options, pool, fits, out);
+                            if (kept != nullptr) level.append_words(slot, *kept);
                         }
                     }
                 }

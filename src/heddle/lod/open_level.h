@@ -69,6 +69,11 @@ struct OpenLevel {
         return std::span(columns).subspan((3 * voxel + static_cast<std::size_t>(axis)) * words(),
                                           words());
     }
+    /// Appends the words along all axes of a voxel.
+    void append_words(std::size_t voxel, std::vector<std::uint64_t>& to) const {
+        const auto first = columns.begin() + static_cast<std::ptrdiff_t>(3 * voxel * words());
+        to.insert(to.end(), first, first + static_cast<std::ptrdiff_t>(3 * words()));
+    }
     [[nodiscard]] std::span<const std::uint64_t> words_of(std::size_t voxel, int axis) const {
         return std::span(columns).subspan((3 * voxel + static_cast<std::size_t>(axis)) * words(),
                                           words());
@@ -96,11 +101,13 @@ void build_level(const OpenLevel& below,
                  OpenLevel& out);
 
 /// Appends the voxels of a level to a block, leaf by leaf: from level 3 on parts of leaves.
+/// @param kept  gets their columns, 3 x words() a voxel; null: they are not kept
 void store_level(const OpenLevel& level,
                  const LevelOptions& options,
                  LobePool& pool,
                  RecentFits& fits,
-                 VoxelBlock& out);
+                 VoxelBlock& out,
+                 std::vector<std::uint64_t>* kept = nullptr);
 
 /// Appends a voxel's footprints.
 void append_footprints(const OpenLevel& level,

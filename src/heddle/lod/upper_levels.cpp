@@ -40,6 +40,14 @@ UpperVoxel::Runs join(UpperVoxel::Runs a, UpperVoxel::Runs b) {
     return out;
 }
 
+UpperVoxel::Runs copy(const UpperVoxel::Runs& runs) {
+    UpperVoxel::Runs out;
+    for (const auto& [at, run] : runs) {
+        out.emplace_back(at, std::make_unique<UpperVoxel::Run::element_type>(*run));
+    }
+    return out;
+}
+
 /// Puts the children's runs side by side across the axis, and joins them along it.
 UpperVoxel::Runs
 join_children(std::array<std::unique_ptr<UpperVoxel>, 8>& child, int axis, int level) {
@@ -152,6 +160,22 @@ std::size_t UpperLevels::count(int level) const {
     return level > kBlockLevel && at < levels_.size() ? levels_[at].nodes.size() : 0;
 }
 
+std::vector<Vec3i> UpperLevels::index_of(int level) const {
+    std::vector<Vec3i> out;
+    for (const Node& node : levels_[static_cast<std::size_t>(level - kBlockLevel - 1)].nodes) {
+        out.push_back(node.index);
+    }
+    return out;
+}
+
+std::vector<std::array<UpperVoxel::Runs, 3>> UpperLevels::take_columns(int level) {
+    std::vector<std::array<UpperVoxel::Runs, 3>> out;
+    for (Node& node : levels_[static_cast<std::size_t>(level - kBlockLevel - 1)].nodes) {
+        out.push_back(std::move(node.kept));
+    }
+    return out;
+}
+
 void UpperLevels::take(std::size_t rank, std::unique_ptr<UpperVoxel> voxel) {
     Vec3i index = blocks_[rank];
     std::size_t number = levels_.empty() ? 0 : parent_of_block_[rank];
@@ -192,6 +216,9 @@ std::unique_ptr<UpperVoxel> UpperLevels::close(Node& node, int level, std::size_
     out->lobes.assign(pool->sums.begin(), pool->sums.begin() + count);
     if (options_.merge.with_maps) out->maps.assign(pool->maps.begin(), pool->maps.begin() + count);
     node.child = {};
+    if (options_.fields.correlation) {
+        for (std::size_t axis = 0; axis < 3; ++axis) node.kept[axis] = copy(out->columns[axis]);
+    }
     VoxelBlock stored;
     store_voxel(*out, *pool, level, node.index, options_, stored);
     store_(level, number, stored);

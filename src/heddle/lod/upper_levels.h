@@ -42,6 +42,9 @@ public:
     void take(std::size_t rank, std::unique_ptr<UpperVoxel> voxel);
     /// Voxels of a level that may be there.
     [[nodiscard]] std::size_t count(int level) const;
+    /// Indices of those, and their columns where options.fields.correlation keeps them.
+    [[nodiscard]] std::vector<Vec3i> index_of(int level) const;
+    [[nodiscard]] std::vector<std::array<UpperVoxel::Runs, 3>> take_columns(int level);
 
 private:
     struct Node {
@@ -49,6 +52,7 @@ private:
         std::uint32_t parent = 0; ///< number in the next level
         std::atomic<int> waits{0};
         std::array<std::unique_ptr<UpperVoxel>, 8> child;
+        std::array<UpperVoxel::Runs, 3> kept;
     };
     struct Level {
         std::vector<Node> nodes;

@@ -43,6 +43,7 @@ VoxelizeContext::VoxelizeContext(const Geometry& geometry_in,
           .fields = fields_of(geometry_in)} {
     fit.fields.masks = options_in.keep_sums;
     fit.fields.footprints = options_in.footprints;
+    fit.fields.correlation = options_in.correlation;
     for (std::size_t m = 0; m < geometry_in.materials.size(); ++m) {
         fit.normals[m] = geometry_in.materials[m].kind == MaterialKind::Surface;
     }

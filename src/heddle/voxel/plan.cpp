@@ -301,7 +301,7 @@ void plan_memory(VoxelizePlan& plan, const VoxelizeContext& context, const Bins&
         return fixed +
                std::max(counts + workers + plan.visitor_bytes + kept + lists, kept + writer);
     };
-    plan.spool = peak(result, std::min(entries, limit / 8)) > limit;
+    plan.spool = !fields.correlation && peak(result, std::min(entries, limit / 8)) > limit;
     const std::int64_t kept = plan.spool ? 0 : result;
     const std::int64_t room = limit - fixed - counts - workers - plan.visitor_bytes - kept;
     const std::int64_t lists = std::max<std::int64_t>(room, entries / 64 + 1);

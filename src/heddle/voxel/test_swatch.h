@@ -56,6 +56,7 @@ struct Content {
     std::vector<LobeMaps> maps;
     std::uint32_t merge_order = 0;
     std::array<std::uint64_t, 3> footprints{};
+    std::array<std::uint8_t, 3> correlation{};
     friend bool operator==(const Content&, const Content&) = default;
 };
 
@@ -66,7 +67,8 @@ inline std::map<Key, Content> content_of(const VoxelSource& source) {
                                              {v.lobes.begin(), v.lobes.end()},
                                              {v.maps.begin(), v.maps.end()},
                                              v.merge_order,
-                                             v.footprints};
+                                             v.footprints,
+                                             v.correlation};
     });
     EXPECT_EQ(static_cast<std::int64_t>(content.size()), source.info().voxel_count);
     return content;

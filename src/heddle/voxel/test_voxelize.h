@@ -45,6 +45,7 @@ struct FoundVoxel {
     std::span<const LobeMaps> maps; ///< as many as lobes, or empty
     std::uint32_t merge_order = 0;
     std::array<std::uint64_t, 3> footprints{};
+    std::array<std::uint8_t, 3> correlation{};
     std::array<std::uint64_t, 3> columns{}; ///< with sums only, and
     std::span<const LobeMoment> moments;    ///< as many as lobes
 };
@@ -68,6 +69,7 @@ void for_each_voxel(const VoxelSource& source, const Visit& visit) {
                                  .moments = {}};
                 if (!block.merge_order.empty()) found.merge_order = block.merge_order[voxel];
                 if (!block.footprints.empty()) found.footprints = block.footprints[voxel];
+                if (!block.correlation.empty()) found.correlation = block.correlation[voxel];
                 if (!block.columns.empty()) {
                     found.columns = block.columns[voxel];
                     found.moments = {block.moments.data() + lobe, count};

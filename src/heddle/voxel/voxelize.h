@@ -31,9 +31,11 @@ struct VoxelizeOptions {
     std::int32_t max_lobes = 3;   ///< K, 1 to 8
     CoverageMode coverage = CoverageMode::Columns;
     FitMode fit = FitMode::Moments;
-    std::int32_t footprints = 0;   ///< cells per axis of a voxel's face that are kept: 0, 4 or 8
-    std::int64_t samples = 0;      ///< per span, with CoverageMode::Mask; 0: two a subvoxel
-    bool keep_sums = false;        ///< VoxelGridFields::masks stays in the result
+    std::int32_t footprints = 0; ///< cells per axis of a voxel's face that are kept: 0, 4 or 8
+    bool correlation = false;    ///< a BlockVisitor is to find what neighbouring voxels share; all
+                                 ///< stays in memory
+    std::int64_t samples = 0;    ///< per span, with CoverageMode::Mask; 0: two a subvoxel
+    bool keep_sums = false;      ///< VoxelGridFields::masks stays in the result
     std::int64_t memory_bytes = 0; ///< peak resident size that is kept; 0: half of what is free
     std::uint64_t seed = 0;
     std::int64_t writer_bytes = 0; ///< what the caller will take to write the result, and per leaf
