@@ -236,6 +236,21 @@ TEST_F(VdbLevels, LobesMaterialsAndMergeOrdersThatCannotBeAreRefused) {
         "has a lobe of weight 0");
 }
 
+TEST_F(VdbLevels, CutAndFlippedBytesGiveAnErrorOrVoxelsNeverACrash) {
+    const std::string whole = testing::slurp(write(make_levels(2)));
+    int refused = 0;
+    for (std::uint64_t i = 0; i < 30; ++i) {
+        std::string bad = whole;
+        bad[hash64(1, i) % bad.size()] ^= static_cast<char>(1 + hash64(2, i) % 255);
+        const std::string path = folder_.write("bad.vdb", bad);
+        refused += testing::error_of([&] { (void)read_levels(path); }).has_value();
+        const std::string cut =
+            folder_.write("cut.vdb", whole.substr(0, hash64(3, i) % whole.size()));
+        EXPECT_TRUE(testing::error_of([&] { (void)read_levels(cut); }).has_value());
+    }
+    EXPECT_GT(refused, 6);
+}
+
 TEST_F(VdbLevels, LevelsOffTheirLatticeOrOutOfStepAreNotWritten) {
     const auto refused = [&](auto change, const std::string& text) {
         VoxelLevels levels = make_levels(2);
