@@ -1,3 +1,4 @@
+#include <heddle/base/error.h>
 #include <heddle/base/memory.h>
 #include <heddle/cli/commands.h>
 #include <heddle/cli/level_options.h>
@@ -21,7 +22,12 @@ void run_lod(const Arguments& arguments, Report& report, ProgressBar& bar) {
     }
     check_output(output, ".vdb");
     bar.begin("read", "files", 1);
-    VoxelLevels levels = read_levels(arguments.text("FILE"));
+    const std::string& path = arguments.text("FILE");
+    if (arguments.given("exact") && !read_infos(path).front().fields.masks) {
+        throw Error(ErrorCode::BadFile, "holds no columns and sums, so levels would be approximate",
+                    "voxelize it with --keep-masks, or leave out --exact", {.path = path});
+    }
+    VoxelLevels levels = read_levels(path);
     bar.check();
     levels = rebuild_levels(std::move(levels), options, arguments.given("exact"), bar);
     write_output([&] { write_vdb(levels, output, bar); });

@@ -64,7 +64,7 @@ void merge_by_mean(LobePool& pool,
     for (std::size_t i = 0; i < static_cast<std::size_t>(pool.count); ++i) {
         sum = plus(sum, scaled(moment_of(detail::mean_moment(pool.sums[i])), shares.of[i]));
     }
-    reduce(pool, 1, with_maps, ByMoments{}); // weight, material and maps
+    reduce_by_moments(pool, 1, with_maps); // weight, material and maps
     set_moment(pool.sums[0], finish(sum));
 }
 
@@ -101,12 +101,12 @@ std::uint32_t merge_children(LobePool& pool,
                              std::uint64_t seed) {
     const bool maps = options.with_maps;
     switch (options.method) {
-    case LodMethod::Moments: return reduce(pool, options.max_lobes, maps, ByMoments{}, kSameLobe);
+    case LodMethod::Moments: return reduce_by_moments(pool, options.max_lobes, maps, kSameLobe);
     case LodMethod::Wasserstein:
         return reduce(pool, options.max_lobes, maps, [&](DirectionSums* lobes, int count) {
             return WassersteinLobes(std::span(lobes, static_cast<std::size_t>(count)), seed);
         });
-    case LodMethod::Single: reduce(pool, 1, maps, ByMoments{}); break;
+    case LodMethod::Single: reduce_by_moments(pool, 1, maps); break;
     case LodMethod::Naive:
         merge_by_mean(
             pool, maps, [](const SymmetricMatrix& M) { return outer(principal_direction(M)); },

@@ -115,6 +115,8 @@ void append_footprints(const OpenLevel& level,
                        const LevelOptions& options,
                        VoxelBlock& out);
 
+[[nodiscard]] std::int64_t count_bits(std::span<const std::uint64_t> words);
+
 /// Seed of a voxel's random numbers.
 [[nodiscard]] std::uint64_t seed_of(const LevelOptions& options, int level, Vec3i index);
 

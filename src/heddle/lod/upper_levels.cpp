@@ -3,8 +3,6 @@
 #include <heddle/base/trig.h>
 #include <heddle/voxel/footprint.h>
 
-#include <bit>
-
 namespace heddle {
 namespace {
 
@@ -81,7 +79,7 @@ void store_voxel(const UpperVoxel& upper,
     std::array<std::int64_t, 3> covered{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         for (const auto& [place, run] : upper.columns[axis]) {
-            for (const std::uint64_t w : *run) covered[axis] += std::popcount(w);
+            covered[axis] += count_bits(*run);
         }
     }
     append_coverage(upper.voxel, covered, level, options, out);

@@ -15,6 +15,38 @@ struct LobeMerge {
     std::uint8_t from = 0;
 };
 
+namespace detail {
+
+/// The bits of a float >= 0: they order as it does, and their minimum is an integer instruction.
+[[nodiscard]] HEDDLE_INLINE std::uint32_t order_bits(float x) {
+    std::uint32_t bits;
+    __builtin_memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+inline constexpr std::uint32_t kAbsent = 0xffffffffu; ///< above the bits of any number
+
+/// order_bits of the distances of lobe i to lobes begin .. end - 1, kAbsent of those that are gone.
+template <typename Lobes>
+HEDDLE_INLINE void find_distances(const Lobes& lobes,
+                                  int i,
+                                  int begin,
+                                  int end,
+                                  const std::uint32_t* absent,
+                                  std::uint32_t* row) {
+    if constexpr (requires(float* out) { lobes.distances(i, begin, end, out); }) {
+        float d[kMaxPool];
+        lobes.distances(i, begin, end, d);
+        for (int j = begin; j < end; ++j) row[j] = order_bits(d[j]) | absent[j];
+    } else {
+        for (int j = begin; j < end; ++j) {
+            row[j] = absent[j] != 0 ? kAbsent : order_bits(lobes.distance(i, j));
+        }
+    }
+}
+
+} // namespace detail
+
 /// Merges the closest pair of `count` lobes until `keep` are left, and on while it is closer than
 /// `same`.                                                              [Fabre26, 4.4, eq. 18]
 ///
@@ -25,53 +57,51 @@ struct LobeMerge {
 /// @param count    0 .. kMaxPool
 /// @param keep     1 or more
 /// @param lobes    float distance(int i, int j), i < j: >= 0, asked for lobes that are there;
-///                 void merge(int into, int from): makes lobe `into` the merged one
+///                 void merge(int into, int from): makes lobe `into` the merged one; may have
+///                 void distances(int i, int begin, int end, float* out): out[j] = distance(i, j),
+///                 i < begin, anything >= 0 for lobes that are gone
 /// @param merges   receives at most count - 1 merges, in their order
 /// @param same     distance below which lobes need not stay apart; 0: merges just to `keep`
 /// @return         number of merges
 template <typename Lobes>
-HEDDLE_HD inline int
+HEDDLE_INLINE int
 agglomerate(int count, int keep, Lobes& lobes, LobeMerge* merges, float same = 0.0f) {
-    float least[kMaxPool];
-    std::int8_t nearest[kMaxPool];
-    std::int8_t left[kMaxPool]; // numbers of the lobes that are there, ascending
-    for (int i = 0; i < count; ++i) left[i] = static_cast<std::int8_t>(i);
-    const auto find_nearest = [&](int at, int n) {
-        const int i = left[at];
-        nearest[i] = -1;
-        for (int b = at + 1; b < n; ++b) {
-            const float d = lobes.distance(i, left[b]);
-            if (nearest[i] < 0 || d < least[i]) {
-                least[i] = d;
-                nearest[i] = left[b];
-            }
-        }
+    if (count < 2 || (count <= keep && !(same > 0.0f))) return 0;
+    std::uint32_t least[kMaxPool];  // distance of each to the closest of higher number, and
+    std::uint8_t nearest[kMaxPool]; // that lobe
+    std::uint32_t absent[kMaxPool]{};
+    const auto find_nearest = [&](int i) __attribute__((always_inline)) {
+        std::uint32_t row[kMaxPool];
+        detail::find_distances(lobes, i, i + 1, count, absent, row);
+        std::uint32_t best = detail::kAbsent;
+        for (int j = i + 1; j < count; ++j) best = row[j] < best ? row[j] : best;
+        least[i] = best;
+        int j = i + 1;
+        while (j < count && row[j] != best) ++j;
+        nearest[i] = static_cast<std::uint8_t>(j);
     };
-    if (count <= keep && !(same > 0.0f)) return 0;
-    for (int a = 0; a < count; ++a) find_nearest(a, count);
+    for (int i = 0; i < count; ++i) find_nearest(i);
+    const std::uint32_t same_bits = detail::order_bits(same);
     int made = 0;
     for (int n = count; n > 1; --n) {
-        int into = left[0];
-        for (int a = 1; a + 1 < n; ++a) {
-            if (least[left[a]] < least[into]) into = left[a];
-        }
-        if (n <= keep && !(least[into] < same)) break;
+        std::uint32_t best = detail::kAbsent;
+        for (int i = 0; i < count; ++i) best = least[i] < best ? least[i] : best;
+        if (n <= keep && !(best < same_bits)) break;
+        int into = 0;
+        while (least[into] != best) ++into;
         const int from = nearest[into];
         lobes.merge(into, from);
         merges[made++] = {static_cast<std::uint8_t>(into), static_cast<std::uint8_t>(from)};
-        int kept = 0;
-        for (int a = 0; a < n; ++a) {
-            if (left[a] != from) left[kept++] = left[a];
-        }
-        for (int a = 0; a < n - 1; ++a) {
-            const int i = left[a];
+        absent[from] = least[from] = detail::kAbsent;
+        for (int i = 0; i < from; ++i) {
+            if (absent[i] != 0) continue;
             if (i == into || nearest[i] == from || nearest[i] == into) {
-                find_nearest(a, n - 1);
+                find_nearest(i);
             } else if (i < into) {
-                const float d = lobes.distance(i, into);
+                const std::uint32_t d = detail::order_bits(lobes.distance(i, into));
                 if (d < least[i] || (d == least[i] && into < nearest[i])) {
                     least[i] = d;
-                    nearest[i] = static_cast<std::int8_t>(into);
+                    nearest[i] = static_cast<std::uint8_t>(into);
                 }
             }
         }

@@ -87,28 +87,47 @@ namespace detail {
 class MomentLobes {
 public:
     /// @param lobes  at most kMaxPool, weights > 0, sum of weights < 2^63; merged in place
-    HEDDLE_HD explicit MomentLobes(std::span<DirectionSums> lobes) : lobes_(lobes.data()) {
+    HEDDLE_INLINE explicit MomentLobes(std::span<DirectionSums> lobes) : lobes_(lobes.data()) {
         std::int64_t total = 0;
-        for (const DirectionSums& lobe : lobes) total += lobe.weight;
+        for (const DirectionSums& lobe : lobes) {
+            total += lobe.weight;
+            one_material_ = one_material_ && lobe.material == lobes_[0].material;
+        }
         per_weight_ = 1.0f / static_cast<float>(total);
         for (int i = 0; i < static_cast<int>(lobes.size()); ++i) update(i);
     }
-    [[nodiscard]] HEDDLE_HD float distance(int i, int j) const {
+    [[nodiscard]] HEDDLE_INLINE float distance(int i, int j) const {
         if (lobes_[i].material != lobes_[j].material) return distance_of_materials(i, j);
-        return share_of_pair(i, j) * detail::square_distance(mean_[i], mean_[j]);
+        return distance_of_means(i, j);
     }
-    HEDDLE_HD void merge(int into, int from) {
+    HEDDLE_INLINE void distances(int i, int begin, int end, float* out) const {
+        if (one_material_) {
+            for (int j = begin; j < end; ++j) out[j] = distance_of_means(i, j);
+        } else {
+            for (int j = begin; j < end; ++j) out[j] = distance(i, j);
+        }
+    }
+    HEDDLE_INLINE void merge(int into, int from) {
         lobes_[into] = merged(lobes_[into], lobes_[from]);
         update(into);
     }
 
 private:
-    [[nodiscard]] HEDDLE_HD float share_of_pair(int i, int j) const {
+    [[nodiscard]] HEDDLE_INLINE float share_of_pair(int i, int j) const {
         return share_[i] * share_[j] / (share_[i] + share_[j]);
     }
+    [[nodiscard]] HEDDLE_INLINE float distance_of_means(int i, int j) const {
+        const auto square = [&](int k) {
+            const float d = mean_[k][i] - mean_[k][j];
+            return d * d;
+        };
+        const float apart =
+            (square(0) + square(1) + square(2)) + 2.0f * (square(3) + square(4) + square(5));
+        return share_of_pair(i, j) * apart;
+    }
     [[nodiscard]] HEDDLE_HD float distance_of_materials(int i, int j) const {
-        SymmetricMatrix a = mean_[i];
-        SymmetricMatrix b = mean_[j];
+        SymmetricMatrix a = detail::mean_moment(lobes_[i]);
+        SymmetricMatrix b = detail::mean_moment(lobes_[j]);
         if (lobes_[i].normals != lobes_[j].normals) {
             const bool first = leads(lobes_[i], lobes_[j]);
             SymmetricMatrix& light = first ? b : a;
@@ -116,14 +135,17 @@ private:
         }
         return detail::keep_apart(share_of_pair(i, j) * detail::square_distance(a, b));
     }
-    HEDDLE_HD void update(int i) {
-        mean_[i] = detail::mean_moment(lobes_[i]);
+    HEDDLE_INLINE void update(int i) {
+        const SymmetricMatrix M = detail::mean_moment(lobes_[i]);
+        const float entry[6] = {M.xx, M.yy, M.zz, M.xy, M.xz, M.yz};
+        for (int k = 0; k < 6; ++k) mean_[k][i] = entry[k];
         share_[i] = static_cast<float>(lobes_[i].weight) * per_weight_;
     }
 
     DirectionSums* lobes_;
     float per_weight_;
-    SymmetricMatrix mean_[kMaxPool];
+    bool one_material_ = true;
+    float mean_[6][kMaxPool]; ///< by entry: distances to many lobes are a loop of vectors
     float share_[kMaxPool];
 };
 

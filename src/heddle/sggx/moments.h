@@ -22,9 +22,10 @@ namespace detail {
 /// M_i ~ a_i (P_j + P_k), P_i = a_i R_D(a_j, a_k, a_i)                              [docs/sggx.md]
 /// R_D by duplication [Carlson 1995]; all three share one sequence. Five steps leave 7e-9 at any
 /// ratio down to 0; each step divides the error by 60.
+/// @param kSteps  of duplication
 /// @param a  eigenvalues of S in any scale, the first the largest and > 0
+template <int kSteps = 5>
 [[nodiscard]] HEDDLE_HD inline Vec3d moment_of_eigenvalues(Vec3d a) {
-    constexpr int kSteps = 5;
     const double floor = 1e-16 * a.x; // a zero eigenvalue: P is 0 in the limit, not 0 x infinity
     a.y = a.y > floor ? a.y : floor;
     a.z = a.z > floor ? a.z : floor;
@@ -118,10 +119,12 @@ struct CubicWeights {
 /// M has the eigenvectors of S; its eigenvalues are complete elliptic integrals of S's
 /// (docs/sggx.md), here to a float's rounding.
 /// @param S  positive semi-definite, entries finite, not 0; its scale does not matter
+/// @param kSteps  of detail::moment_of_eigenvalues
 /// @return   trace 1
+template <int kSteps = 5>
 [[nodiscard]] HEDDLE_HD inline SymmetricMatrix second_moment_of(const SggxMatrix& S) {
     const SymmetricEigen e = decompose(S);
-    const Vec3d m = detail::moment_of_eigenvalues({e.value[0], e.value[1], e.value[2]});
+    const Vec3d m = detail::moment_of_eigenvalues<kSteps>({e.value[0], e.value[1], e.value[2]});
     return compose({{m.x, m.y, m.z}, {e.axis[0], e.axis[1], e.axis[2]}});
 }
 

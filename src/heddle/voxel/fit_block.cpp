@@ -63,13 +63,13 @@ HEDDLE_INLINE std::uint32_t pool_lobes(BlockFit& fit, const VoxelSums& voxel) {
                   [](const LobeSums* a, const LobeSums* b) { return a->material < b->material; });
     }
     for (const LobeSums* l : list) {
-        if (pool.count == kMaxPool) reduce(pool, kMaxLobes, with_maps, ByMoments{});
+        if (pool.count == kMaxPool) reduce_by_moments(pool, kMaxLobes, with_maps);
         DirectionSums lobe{
             .weight = l->weight, .material = l->material, .normals = options.normals[l->material]};
         std::copy_n(l->moment.begin(), 6, lobe.moment);
         pool.add(lobe, sums.find_maps(voxel, *l));
     }
-    return reduce(pool, options.max_lobes, with_maps, ByMoments{});
+    return reduce_by_moments(pool, options.max_lobes, with_maps);
 }
 
 /// Keeps what coarser levels are built from.

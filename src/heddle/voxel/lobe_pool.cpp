@@ -50,6 +50,11 @@ MapSums scale_maps(const MapSums& maps, std::int64_t whole, std::int64_t part) {
     return out;
 }
 
+HEDDLE_CLONES std::uint32_t
+reduce_by_moments(LobePool& pool, int keep, bool with_maps, float same) {
+    return reduce(pool, keep, with_maps, ByMoments{}, same);
+}
+
 PackedSggx RecentFits::fit(const std::int64_t (&moment)[6], std::int64_t weight) {
     std::uint64_t h = static_cast<std::uint64_t>(weight);
     for (const std::int64_t m : moment) {

@@ -42,7 +42,7 @@ HEDDLE_INLINE void add_maps(MapSums& a, const MapSums& b) {
 /// @param with_maps   pool.maps count
 /// @return            VoxelBlock::merge_order
 template <typename MakeLobes>
-std::uint32_t line_up(LobePool& pool, bool with_maps, const MakeLobes& make_lobes) {
+HEDDLE_INLINE std::uint32_t line_up(LobePool& pool, bool with_maps, const MakeLobes& make_lobes) {
     if (pool.count < 2) return 0;
     const auto count = static_cast<std::size_t>(pool.count);
     std::array<DirectionSums, kMaxLobes> sums;
@@ -85,7 +85,7 @@ inline void compact(LobePool& pool, const LobeMerge* merges, int made, bool with
 /// @param same  distance below which lobes merge even so (agglomerate.h)
 /// @return      as line_up
 template <typename MakeLobes>
-std::uint32_t
+HEDDLE_INLINE std::uint32_t
 reduce(LobePool& pool, int keep, bool with_maps, const MakeLobes& make_lobes, float same = 0.0f) {
     if (pool.count > keep || (pool.count > 1 && same > 0.0f)) {
         std::array<LobeMerge, kMaxPool> merges;
@@ -104,10 +104,13 @@ reduce(LobePool& pool, int keep, bool with_maps, const MakeLobes& make_lobes, fl
 
 /// The default way of reduce() and line_up(): by second moments.
 struct ByMoments {
-    MomentLobes operator()(DirectionSums* lobes, int count) const {
+    HEDDLE_INLINE MomentLobes operator()(DirectionSums* lobes, int count) const {
         return MomentLobes(std::span(lobes, static_cast<std::size_t>(count)));
     }
 };
+
+/// reduce() by second moments, compiled for the machine's vectors.
+std::uint32_t reduce_by_moments(LobePool& pool, int keep, bool with_maps, float same = 0.0f);
 
 /// Fits that were just made: the voxels that one flat triangle passes alone have few different sums.
 class RecentFits {
