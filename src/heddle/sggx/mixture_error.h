@@ -109,8 +109,8 @@ inline void add_wide_lobe(const SggxMatrix& S, double weight, double* cell) {
     }
 }
 
-/// Adds a lobe by the normals A u of its ellipsoid, weighed by their area |A u|: as many points fall
-/// into a narrow lobe as into a wide one.
+/// Adds a lobe by the normals A u of its ellipsoid, weighed by their area |A u|: as many points
+/// fall into a narrow lobe as into a wide one.
 inline void add_narrow_lobe(const SggxMatrix& S, double weight, int points, double* cell) {
     thread_local std::vector<Vec3d> u;
     thread_local std::vector<std::pair<CellPair, double>> hit;
@@ -157,10 +157,11 @@ struct DirectionTruth {
 
     /// Adds all directions of a lobe.
     ///
-    /// Areas and moment are closed forms. Cells: from the density where the lobe is wider than the
-    /// 64 parts that each cell is cut into, else from `points` directions.
+    /// Areas and moment are closed forms. Cells, which sum to the weight: from the density at the
+    /// centres of 64 parts of each cell where the lobe is wide enough, else from `points` of its
+    /// directions. Either way within .007 of the true shares in L1 at kLobePoints.
     /// @param lobe    S positive definite
-    /// @param points  1 or more; the more lobes are added, the fewer each needs
+    /// @param points  1 or more; fewer than kLobePoints: always by points, for sums of many lobes
     void add(const MixtureLobe& lobe, int points = kLobePoints) {
         add_areas(lobe.S, lobe.weight);
         add_moment(second_moment_of(lobe.S), lobe.weight);

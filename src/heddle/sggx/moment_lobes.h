@@ -10,10 +10,10 @@
 
 namespace heddle {
 
-/// Distance by `moments` below which lobes are one for any eye, so that they are merged even where
-/// fewer than `keep` are left: the merge costs less than 2e-5 in sigma and 0.011 in the L1 distance
-/// of densities, where packing costs 6e-4 and .01 to .02; files get up to half as many lobes. From
-/// 1e-3 on sigma loses up to 6e-5, the L1 distance .05.                           [docs/sggx.md]
+/// Distance by `moments` below which two lobes are stored as one, even where fewer than `keep` are
+/// left. Measured: sigma loses at most 2e-5 and the L1 distance of densities .013, where packing
+/// costs 6e-4 and .01 to .02; up to half of the lobes go. At 1e-3 sigma loses 6e-5, L1 up to .05,
+/// which on flat surfaces is more than `wasserstein` errs.                        [docs/sggx.md]
 inline constexpr float kSameLobe = 1e-4f;
 
 namespace detail {
@@ -64,7 +64,7 @@ namespace detail {
     return s;
 }
 
-/// Both lobes as one, exact: sums are added. The lighter one's turn to the heavier one's kind first.
+/// Both lobes as one, exact: sums are added. The lighter one's take the heavier one's kind first.
 [[nodiscard]] HEDDLE_HD constexpr DirectionSums merged(const DirectionSums& a,
                                                        const DirectionSums& b) {
     const bool first = leads(a, b);
@@ -78,12 +78,13 @@ namespace detail {
 
 /// Lobes for agglomerate() by the method `moments`: the closest pair costs projected area least.
 ///
-/// distance = w_i w_j / (w_i + w_j) |M_i - M_j|^2   (Frobenius; w shares of all weight; [Ward 1963])
+/// distance = w_i w_j / (w_i + w_j) |M_i - M_j|^2   (Frobenius; w: shares of weight; [Ward 1963])
 ///
-/// The merged lobe keeps the second moment, so the error of sigma(w) starts with the fourth. Where a
-/// lobe's fourth moment is near M x M (exact for a needle) the change of w_i M_i x M_i + w_j M_j x M_j
-/// is this factor times (M_i - M_j) x (M_i - M_j), whose part of fourth order is in size a constant
-/// times |M_i - M_j|^2. At most 1/2: perpendicular needles, half of the weight each.
+/// The merged lobe keeps the second moment, so the error of sigma(w) starts with the fourth. Where
+/// a lobe's fourth moment is near M x M (it is M x M for a needle), merging changes the sum of
+/// w M x M by this factor times D x D, D = M_i - M_j, whose part of fourth order is in size a
+/// constant times |D|^2. At most 1/2: perpendicular needles, half of the weight each.
+///                                                                               [docs/sggx.md]
 class MomentLobes {
 public:
     /// @param lobes  at most kMaxPool, weights > 0, sum of weights < 2^63; merged in place
@@ -151,7 +152,8 @@ private:
 
 /// Moves the lobes that `made` merges left to the front, in their order.
 /// @return  how many are left
-HEDDLE_HD inline int compact(std::span<DirectionSums> lobes, const LobeMerge* merges, int made) {
+HEDDLE_HD inline int
+compact_lobes(std::span<DirectionSums> lobes, const LobeMerge* merges, int made) {
     std::uint64_t gone = 0;
     for (int i = 0; i < made; ++i) gone |= std::uint64_t{1} << merges[i].from;
     int left = 0;
@@ -162,8 +164,8 @@ HEDDLE_HD inline int compact(std::span<DirectionSums> lobes, const LobeMerge* me
     return left;
 }
 
-/// Reduces pooled lobes to at most `keep` by the method `moments`, and to fewer while two are closer
-/// than `same`. Lobes of different materials merge only when no two of one material are left.
+/// Reduces pooled lobes to at most `keep` by the method `moments`, and to fewer while two are
+/// closer than `same`. Lobes of different materials merge only when no two of one material are left.
 ///
 /// @param lobes   0 .. kMaxPool, weights > 0; those left stand at the front, in their order
 /// @param keep    1 or more
@@ -175,7 +177,7 @@ reduce_lobes(std::span<DirectionSums> lobes, int keep, LobeMerge* merges, float 
     const int count = static_cast<int>(lobes.size());
     if (count < 2) return count;
     MomentLobes policy(lobes);
-    return compact(lobes, merges, agglomerate(count, keep, policy, merges, same));
+    return compact_lobes(lobes, merges, agglomerate(count, keep, policy, merges, same));
 }
 
 } // namespace heddle

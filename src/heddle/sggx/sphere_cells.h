@@ -10,8 +10,8 @@
 namespace heddle {
 
 // Cells of equal area on the sphere, to compare distributions of directions in.
-// HEALPix in ring order [Gorski 2005, "HEALPix", sec. 4 and 5.2]. Measures only, on the host: libm's
-// atan2 may differ between machines in the last bit, which moves directions on a cell's edge.
+// HEALPix in ring order [Gorski 2005, "HEALPix"]. Measures only, on the host: libm's atan2 may
+// differ between machines in the last bit, which moves directions on a cell's edge.
 
 inline constexpr int kSphereCellSide = 8; ///< N_side
 inline constexpr int kSphereCells = 12 * kSphereCellSide * kSphereCellSide;

@@ -105,8 +105,8 @@ struct HistogramSlice {
 
 /// Lobes for agglomerate() by the method `wasserstein`.                         [Fabre26, 4.4]
 ///
-/// Each lobe is 5,000 samples of its SGGX; the distance is sliced_wasserstein of their histograms and
-/// knows no weights, as in the paper. Merging joins the samples, each side's in proportion to its
+/// Each lobe is 5,000 samples of its SGGX; the distance is sliced_wasserstein of their histograms
+/// and knows no weights, as in the paper. Merging joins the samples, each side's in proportion to its
 /// weight, 5,000 together; their second moment is the merged lobe's, which is then sampled anew.
 class WassersteinLobes {
 public:
@@ -152,8 +152,8 @@ private:
         std::vector<Vec3f> samples;
         DirectionHistogram histogram{};
     };
-    /// Samples of the SGGX fitted to `sums`: a stream for each set of sums, so that the order of calls
-    /// does not matter.
+    /// Samples of the SGGX fitted to `sums`: a stream for each set of sums, so that the order of
+    /// calls does not matter.
     [[nodiscard]] Drawn draw(const DirectionSums& sums) const {
         std::uint64_t id = static_cast<std::uint64_t>(sums.weight);
         for (const std::int64_t m : sums.moment) id = hash64(id, static_cast<std::uint64_t>(m));
@@ -193,7 +193,7 @@ inline int reduce_lobes_by_wasserstein(std::span<DirectionSums> lobes,
     const int count = static_cast<int>(lobes.size());
     if (count <= keep) return count;
     WassersteinLobes policy(lobes, seed);
-    return compact(lobes, merges, agglomerate(count, keep, policy, merges));
+    return compact_lobes(lobes, merges, agglomerate(count, keep, policy, merges));
 }
 
 } // namespace heddle
