@@ -95,6 +95,11 @@ void run_voxelize(const Arguments& arguments, Report& report, ProgressBar& bar) 
     bar.finish();
     report.text("output", output);
     report_levels(report, levels);
+    if (levels_above) {
+        report.add(
+            "levels_thread_seconds", "levels", levels_above->visit_seconds(),
+            str(show_seconds(levels_above->visit_seconds()), " of all threads, within voxelize"));
+    }
     report.bytes("file size", file_bytes(output));
     for (const auto& [stage, seconds] : bar.stages()) report.seconds(stage, seconds);
     const std::chrono::duration<double> total = std::chrono::steady_clock::now() - start;

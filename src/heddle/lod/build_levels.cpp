@@ -9,6 +9,7 @@
 #include <heddle/voxel/z_order.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -196,6 +197,7 @@ struct LevelBuilder::State {
     Workspaces workspaces;
     std::mutex mutex;
     VoxelBox box;
+    double seconds = 0.0;
     std::array<std::vector<KeptColumns>, kBlockLevel + 1> kept; ///< with fields.correlation
 
     void store(int level, std::size_t number, VoxelBlock& block) {
@@ -260,6 +262,7 @@ void LevelBuilder::begin(const VoxelGridInfo& info,
 
 void LevelBuilder::visit(std::size_t rank, const VoxelBlock& block) {
     State& s = *state_;
+    const auto start = std::chrono::steady_clock::now();
     std::unique_ptr<UpperVoxel> top;
     s.workspaces.with([&](Workspace& work) {
         const int last = std::min(s.top, kBlockLevel);
@@ -281,6 +284,13 @@ void LevelBuilder::visit(std::size_t rank, const VoxelBlock& block) {
         if (!work.level[0].voxels.empty()) s.box.grow(box.lo, box.hi);
     });
     s.upper->take(rank, std::move(top));
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+    const std::scoped_lock lock(s.mutex);
+    s.seconds += spent.count();
+}
+
+double LevelBuilder::visit_seconds() const {
+    return state_ ? state_->seconds : 0.0;
 }
 
 /// Fills what the voxels of a level share with their neighbours; its columns are dropped.

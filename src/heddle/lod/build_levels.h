@@ -51,6 +51,9 @@ public:
     /// @return        level 0 and those above it
     [[nodiscard]] VoxelLevels finish(std::unique_ptr<VoxelSource> level0);
 
+    /// Time that visits have taken so far, summed over threads, seconds.
+    [[nodiscard]] double visit_seconds() const;
+
 private:
     void fill_shared(int level, std::span<VoxelBlock> blocks);
 
