@@ -15,34 +15,57 @@ struct LobeMerge {
     std::uint8_t from = 0;
 };
 
+/// Lobes whose distances are asked for at once: a vector of floats.
+inline constexpr int kPoolRow = 8;
+
 namespace detail {
 
-/// The bits of a float >= 0: they order as it does, and their minimum is an integer instruction.
-[[nodiscard]] HEDDLE_INLINE std::uint32_t order_bits(float x) {
+/// A pair's place in the order of merging: the bits of its distance, which order as it does, down to
+/// 2^-17 of it, and the higher lobe's number. Closest pairs are then minima of integers.
+[[nodiscard]] HEDDLE_INLINE std::uint32_t pair_key(float distance, int higher) {
     std::uint32_t bits;
-    __builtin_memcpy(&bits, &x, sizeof bits);
-    return bits;
+    __builtin_memcpy(&bits, &distance, sizeof bits);
+    return (bits & ~std::uint32_t{kMaxPool - 1}) | static_cast<std::uint32_t>(higher);
+}
+[[nodiscard]] HEDDLE_INLINE int higher_of(std::uint32_t key) {
+    return static_cast<int>(key & (kMaxPool - 1));
 }
 
-inline constexpr std::uint32_t kAbsent = 0xffffffffu; ///< above the bits of any number
+inline constexpr std::uint32_t kNoPair = 0xffffffffu; ///< above any pair's
 
-/// order_bits of the distances of lobe i to lobes begin .. end - 1, kAbsent of those that are gone.
+/// out[k] = distance(i, begin + k).
 template <typename Lobes>
-HEDDLE_INLINE void find_distances(const Lobes& lobes,
-                                  int i,
-                                  int begin,
-                                  int end,
-                                  const std::uint32_t* absent,
-                                  std::uint32_t* row) {
-    if constexpr (requires(float* out) { lobes.distances(i, begin, end, out); }) {
-        float d[kMaxPool];
-        lobes.distances(i, begin, end, d);
-        for (int j = begin; j < end; ++j) row[j] = order_bits(d[j]) | absent[j];
+HEDDLE_INLINE void find_distances(
+    const Lobes& lobes, int i, int begin, const std::uint32_t* absent, float (&out)[kPoolRow]) {
+    if constexpr (requires { lobes.distances(i, begin, out); }) {
+        lobes.distances(i, begin, out);
     } else {
-        for (int j = begin; j < end; ++j) {
-            row[j] = absent[j] != 0 ? kAbsent : order_bits(lobes.distance(i, j));
+        for (int k = 0; k < kPoolRow; ++k) {
+            const bool asked = begin + k > i && absent[begin + k] == 0;
+            out[k] = asked ? lobes.distance(i, begin + k) : 0.0f;
         }
     }
+}
+
+/// Key of lobe i and the lobe of higher number that is closest to it.
+/// @param end  of the lobes, a multiple of kPoolRow
+template <typename Lobes>
+[[nodiscard]] HEDDLE_INLINE std::uint32_t
+nearest_key(const Lobes& lobes, int i, int end, const std::uint32_t* absent) {
+    std::uint32_t least[kPoolRow];
+    for (std::uint32_t& key : least) key = kNoPair;
+    for (int begin = (i + 1) & -kPoolRow; begin < end; begin += kPoolRow) {
+        float d[kPoolRow];
+        find_distances(lobes, i, begin, absent, d);
+        for (int k = 0; k < kPoolRow; ++k) {
+            const std::uint32_t below = begin + k > i ? 0 : kNoPair;
+            const std::uint32_t key = pair_key(d[k], begin + k) | absent[begin + k] | below;
+            least[k] = key < least[k] ? key : least[k];
+        }
+    }
+    std::uint32_t best = kNoPair;
+    for (const std::uint32_t key : least) best = key < best ? key : best;
+    return best;
 }
 
 } // namespace detail
@@ -51,15 +74,16 @@ HEDDLE_INLINE void find_distances(const Lobes& lobes,
 /// `same`.                                                              [Fabre26, 4.4, eq. 18]
 ///
 /// Each lobe remembers the lobe of higher number that is closest to it, so that a merge costs about
-/// 2 x count distances. Of equally close pairs the first in (lower, higher) number is taken: the
-/// result depends on the lobes' order and on nothing else.
+/// 2 x count distances. Of pairs as close as 2^-17 of their distance that with the lowest higher number
+/// is taken, then that with the lowest other: the result depends on the lobes' order and on nothing
+/// else.
 ///
 /// @param count    0 .. kMaxPool
 /// @param keep     1 or more
 /// @param lobes    float distance(int i, int j), i < j: >= 0, asked for lobes that are there;
 ///                 void merge(int into, int from): makes lobe `into` the merged one; may have
-///                 void distances(int i, int begin, int end, float* out): out[j] = distance(i, j),
-///                 i < begin, anything >= 0 for lobes that are gone
+///                 void distances(int i, int begin, float (&out)[kPoolRow]): out[k] =
+///                 distance(i, begin + k), anything where that is no pair of lobes that are there
 /// @param merges   receives at most count - 1 merges, in their order
 /// @param same     distance below which lobes need not stay apart; 0: merges just to `keep`
 /// @return         number of merges
@@ -67,42 +91,34 @@ template <typename Lobes>
 HEDDLE_INLINE int
 agglomerate(int count, int keep, Lobes& lobes, LobeMerge* merges, float same = 0.0f) {
     if (count < 2 || (count <= keep && !(same > 0.0f))) return 0;
-    std::uint32_t least[kMaxPool];  // distance of each to the closest of higher number, and
-    std::uint8_t nearest[kMaxPool]; // that lobe
-    std::uint32_t absent[kMaxPool]{};
-    const auto find_nearest = [&](int i) __attribute__((always_inline)) {
-        std::uint32_t row[kMaxPool];
-        detail::find_distances(lobes, i, i + 1, count, absent, row);
-        std::uint32_t best = detail::kAbsent;
-        for (int j = i + 1; j < count; ++j) best = row[j] < best ? row[j] : best;
-        least[i] = best;
-        int j = i + 1;
-        while (j < count && row[j] != best) ++j;
-        nearest[i] = static_cast<std::uint8_t>(j);
-    };
-    for (int i = 0; i < count; ++i) find_nearest(i);
-    const std::uint32_t same_bits = detail::order_bits(same);
+    const int end = (count + kPoolRow - 1) & -kPoolRow;
+    std::uint32_t nearest[kMaxPool]; // of each lobe
+    std::uint32_t absent[kMaxPool];
+    for (int i = 0; i < end; ++i) absent[i] = i < count ? 0 : detail::kNoPair;
+    for (int i = 0; i < end; ++i) nearest[i] = detail::kNoPair;
+    for (int i = 0; i + 1 < count; ++i) {
+        nearest[i] = detail::nearest_key(lobes, i, end, absent);
+    }
+    const std::uint32_t same_key = detail::pair_key(same, 0);
     int made = 0;
     for (int n = count; n > 1; --n) {
-        std::uint32_t best = detail::kAbsent;
-        for (int i = 0; i < count; ++i) best = least[i] < best ? least[i] : best;
-        if (n <= keep && !(best < same_bits)) break;
+        std::uint32_t best = detail::kNoPair;
+        for (int i = 0; i < end; ++i) best = nearest[i] < best ? nearest[i] : best;
+        if (n <= keep && best >= same_key) break;
         int into = 0;
-        while (least[into] != best) ++into;
-        const int from = nearest[into];
+        while (nearest[into] != best) ++into;
+        const int from = detail::higher_of(best);
         lobes.merge(into, from);
         merges[made++] = {static_cast<std::uint8_t>(into), static_cast<std::uint8_t>(from)};
-        absent[from] = least[from] = detail::kAbsent;
+        absent[from] = nearest[from] = detail::kNoPair;
         for (int i = 0; i < from; ++i) {
             if (absent[i] != 0) continue;
-            if (i == into || nearest[i] == from || nearest[i] == into) {
-                find_nearest(i);
+            const int now = detail::higher_of(nearest[i]);
+            if (i == into || now == from || now == into) {
+                nearest[i] = detail::nearest_key(lobes, i, end, absent);
             } else if (i < into) {
-                const std::uint32_t d = detail::order_bits(lobes.distance(i, into));
-                if (d < least[i] || (d == least[i] && into < nearest[i])) {
-                    least[i] = d;
-                    nearest[i] = static_cast<std::uint8_t>(into);
-                }
+                const std::uint32_t key = detail::pair_key(lobes.distance(i, into), into);
+                nearest[i] = key < nearest[i] ? key : nearest[i];
             }
         }
     }

@@ -41,7 +41,10 @@ std::vector<LobeMerge> merge_by_search(LineLobes lobes, int keep) {
         int best_i = left[0], best_j = left[1];
         for (std::size_t a = 0; a < left.size(); ++a) {
             for (std::size_t b = a + 1; b < left.size(); ++b) {
-                if (lobes.distance(left[a], left[b]) < lobes.distance(best_i, best_j)) {
+                const auto key = [&](int i, int j) {
+                    return std::pair(detail::pair_key(lobes.distance(i, j), j), i);
+                };
+                if (key(left[a], left[b]) < key(best_i, best_j)) {
                     best_i = left[a];
                     best_j = left[b];
                 }

@@ -88,24 +88,32 @@ namespace detail {
 class MomentLobes {
 public:
     /// @param lobes  at most kMaxPool, weights > 0, sum of weights < 2^63; merged in place
-    HEDDLE_INLINE explicit MomentLobes(std::span<DirectionSums> lobes) : lobes_(lobes.data()) {
+    HEDDLE_INLINE explicit MomentLobes(std::span<DirectionSums> lobes)
+        : lobes_(lobes.data()), count_(static_cast<int>(lobes.size())) {
         std::int64_t total = 0;
         for (const DirectionSums& lobe : lobes) {
             total += lobe.weight;
             one_material_ = one_material_ && lobe.material == lobes_[0].material;
         }
         per_weight_ = 1.0f / static_cast<float>(total);
-        for (int i = 0; i < static_cast<int>(lobes.size()); ++i) update(i);
+        for (int i = 0; i < count_; ++i) update(i);
+        for (int i = count_; i % kPoolRow != 0; ++i) { // read by distances() and not used
+            for (auto& row : mean_) row[i] = 0.0f;
+            share_[i] = 1.0f;
+        }
     }
     [[nodiscard]] HEDDLE_INLINE float distance(int i, int j) const {
         if (lobes_[i].material != lobes_[j].material) return distance_of_materials(i, j);
         return distance_of_means(i, j);
     }
-    HEDDLE_INLINE void distances(int i, int begin, int end, float* out) const {
+    HEDDLE_INLINE void distances(int i, int begin, float (&out)[kPoolRow]) const {
         if (one_material_) {
-            for (int j = begin; j < end; ++j) out[j] = distance_of_means(i, j);
+            for (int k = 0; k < kPoolRow; ++k) out[k] = distance_of_means(i, begin + k);
         } else {
-            for (int j = begin; j < end; ++j) out[j] = distance(i, j);
+            for (int k = 0; k < kPoolRow; ++k) {
+                const bool there = begin + k < count_;
+                out[k] = there ? distance(i, begin + k) : 0.0f;
+            }
         }
     }
     HEDDLE_INLINE void merge(int into, int from) {
@@ -144,6 +152,7 @@ private:
     }
 
     DirectionSums* lobes_;
+    int count_;
     float per_weight_;
     bool one_material_ = true;
     float mean_[6][kMaxPool]; ///< by entry: distances to many lobes are a loop of vectors
