@@ -1,9 +1,9 @@
 #pragma once
 
 #include <heddle/base/error.h>
+#include <heddle/base/function_ref.h>
 #include <heddle/base/parallel.h>
 #include <heddle/base/progress.h>
-#include <heddle/io/vdb/grid_values.h>
 #include <heddle/io/vdb/leaf_table.h>
 
 #include <openvdb/io/Compression.h>
@@ -98,8 +98,8 @@ struct LeavesByBlock {
     }
 
     /// Calls body(group, leaf index, block, leaf) on all threads; a group on one.
-    template <typename Body>
-    void run(const VoxelSource& source, std::span<const LeafRef> leaves, const Body& body) const {
+    using Body = FunctionRef<void(std::size_t, std::size_t, const VoxelBlock&, const VoxelLeaf&)>;
+    void run(const VoxelSource& source, std::span<const LeafRef> leaves, Body body) const {
         parallel_chunks(first.size() - 1, 1, [&](std::size_t g, std::size_t) {
             VoxelBlock scratch;
             const VoxelBlock& block = source.block(leaves[order[first[g]]].block, scratch);
@@ -110,20 +110,21 @@ struct LeavesByBlock {
     }
 };
 
+// What a kind of grid does with a leaf; borrowed, so that all below is compiled once for each type
+// of value, not for each kind.
+using LeafSelect = FunctionRef<LeafMask(const VoxelBlock&, const VoxelLeaf&)>;
+/// Fills a buffer of 512 with the values of the active voxels; returns how many those are.
+template <typename Value>
+using LeafGather = FunctionRef<std::size_t(const VoxelBlock&, const VoxelLeaf&, Value*)>;
+
 /// The leaves with at least one voxel that is active in the grid, with the masks of those.
-template <typename Values>
-std::vector<LeafRef>
-select_leaves(const VoxelSource& source, std::span<const LeafRef> all, const Values& values) {
+inline std::vector<LeafRef>
+select_leaves(const VoxelSource& source, std::span<const LeafRef> all, LeafSelect select) {
     std::vector<LeafRef> leaves(all.begin(), all.end());
     LeavesByBlock(all, 0, all.size())
         .run(source, all,
              [&](std::size_t, std::size_t i, const VoxelBlock& block, const VoxelLeaf& leaf) {
-                 LeafMask& active = leaves[i].active;
-                 active = {};
-                 for_each_active(block, leaf, values,
-                                 [&](std::size_t x, int bit, std::size_t, std::size_t) {
-                                     active[x] |= std::uint64_t{1} << bit;
-                                 });
+                 leaves[i].active = select(block, leaf);
              });
     std::erase_if(leaves, [](const LeafRef& leaf) { return leaf.active == LeafMask{}; });
     return leaves;
@@ -134,11 +135,11 @@ select_leaves(const VoxelSource& source, std::span<const LeafRef> all, const Val
 inline constexpr std::size_t kBatchLeaves = 4096;
 
 /// The leaves' masks and values, in their order.
-template <typename Values>
+template <typename Value>
 void write_buffers(std::ostream& out,
                    const VoxelSource& source,
                    std::span<const LeafRef> leaves,
-                   const Values& values,
+                   LeafGather<Value> gather,
                    Progress& progress) {
     struct Slice {
         std::size_t group = 0, begin = 0, end = 0;
@@ -152,12 +153,8 @@ void write_buffers(std::ostream& out,
         groups.run(
             source, leaves,
             [&](std::size_t g, std::size_t i, const VoxelBlock& block, const VoxelLeaf& leaf) {
-                typename Values::Value buffer[512];
-                std::size_t n = 0;
-                for_each_active(block, leaf, values,
-                                [&](std::size_t, int, std::size_t v, std::size_t l) {
-                                    buffer[n++] = values.value(block, v, l);
-                                });
+                Value buffer[512];
+                const std::size_t n = gather(block, leaf, buffer);
                 const auto from = static_cast<std::size_t>(encoded[g].tellp());
                 write_raw(encoded[g], leaves[i].active);
                 write_values(encoded[g], buffer, n, false);

@@ -42,34 +42,29 @@ openvdb::Vec3i to_vdb(Vec3i v) {
     return {v.x, v.y, v.z};
 }
 
-/// The standard grid whose bytes are written; it never holds a voxel.
-template <typename Values>
+using HalfDirection = std::array<openvdb::math::half, 3>;
+
+/// The standard grid that stores values of a type; it never holds a voxel.
+template <typename Value>
 struct GridOf;
-template <typename Values>
-requires std::is_same_v<typename Values::Value, float>
-struct GridOf<Values> : std::type_identity<openvdb::FloatGrid> {
-};
-template <typename Values>
-requires std::is_same_v<typename Values::Value, std::int32_t>
-struct GridOf<Values> : std::type_identity<openvdb::Int32Grid> {
-};
-template <typename Values>
-requires std::is_same_v<typename Values::Value, std::int64_t>
-struct GridOf<Values> : std::type_identity<openvdb::Int64Grid> {
-};
+template <>
+struct GridOf<float> : std::type_identity<openvdb::FloatGrid> {};
+template <>
+struct GridOf<HalfDirection> : std::type_identity<openvdb::Vec3SGrid> {};
+template <>
+struct GridOf<std::int32_t> : std::type_identity<openvdb::Int32Grid> {};
+template <>
+struct GridOf<std::int64_t> : std::type_identity<openvdb::Int64Grid> {};
 
 /// DirectionValues as half floats: half the bytes, and still finer than the lobe's eight bits.
 struct HalfDirectionValues : DirectionValues {
     using DirectionValues::DirectionValues;
-    using Value = std::array<openvdb::math::half, 3>;
+    using Value = HalfDirection;
     [[nodiscard]] Value value(const VoxelBlock& b, std::size_t v, std::size_t l) const {
         const Vec3f d = DirectionValues::value(b, v, l);
         return {openvdb::math::half(d.x), openvdb::math::half(d.y), openvdb::math::half(d.z)};
     }
 };
-
-template <>
-struct GridOf<HalfDirectionValues> : std::type_identity<openvdb::Vec3SGrid> {};
 
 /// A level to be written and what its walk found.
 struct Level {
@@ -102,14 +97,33 @@ public:
                const std::string& name,
                const Values& values,
                std::span<const LeafRef> leaves) {
-        using GridT = typename GridOf<Values>::type;
+        using Value = typename Values::Value;
+        write_leaves<Value>(level, name, leaves,
+                            [&](const VoxelBlock& block, const VoxelLeaf& leaf, Value* buffer) {
+                                std::size_t n = 0;
+                                for_each_active(
+                                    block, leaf, values,
+                                    [&](std::size_t, int, std::size_t v, std::size_t l) {
+                                        buffer[n++] = values.value(block, v, l);
+                                    });
+                                return n;
+                            });
+    }
+
+private:
+    template <typename Stored>
+    void write_leaves(const Level& level,
+                      const std::string& name,
+                      std::span<const LeafRef> leaves,
+                      LeafGather<Stored> gather) {
+        using GridT = typename GridOf<Stored>::type;
         using Value = typename GridT::ValueType;
-        constexpr bool kHalf = std::is_same_v<Values, HalfDirectionValues>;
-        static_assert(sizeof(Value) == sizeof(typename Values::Value) * (kHalf ? 2 : 1));
+        constexpr bool kHalf = std::is_same_v<Stored, HalfDirection>;
+        static_assert(sizeof(Value) == sizeof(Stored) * (kHalf ? 2 : 1));
         const typename GridT::Ptr grid = GridT::create();
         describe(*grid, level, leaves, sizeof(Value));
         grid->setName(name);
-        if (std::is_same_v<Values, DensityValues>) grid->setGridClass(openvdb::GRID_FOG_VOLUME);
+        if (std::is_same_v<Stored, float>) grid->setGridClass(openvdb::GRID_FOG_VOLUME);
         grid->setSaveFloatAsHalf(kHalf);
         openvdb::io::GridDescriptor place(name, grid->type(), kHalf);
         place.writeHeader(out_);
@@ -121,14 +135,13 @@ public:
         grid->writeTransform(out_);
         write_topology<Value>(out_, leaves, kHalf);
         place.setBlockPos(out_.tellp());
-        write_buffers(out_, level.source, leaves, values, progress_);
+        write_buffers<Stored>(out_, level.source, leaves, gather, progress_);
         place.setEndPos(out_.tellp());
         out_.seekp(offsets);
         place.writeStreamPos(out_);
         place.seekToEnd(out_);
     }
 
-private:
     /// What openvdb::io::File would add, without the second compression that it does to find out.
     static void describe(openvdb::GridBase& grid,
                          const Level& level,
@@ -208,7 +221,16 @@ private:
     /// Holds until the next call.
     template <typename Values>
     std::span<const LeafRef> select(const Values& values) {
-        selected_ = select_leaves(level_.source, level_.table.leaves, values);
+        selected_ = select_leaves(level_.source, level_.table.leaves,
+                                  [&](const VoxelBlock& block, const VoxelLeaf& leaf) {
+                                      LeafMask active{};
+                                      for_each_active(
+                                          block, leaf, values,
+                                          [&](std::size_t x, int bit, std::size_t, std::size_t) {
+                                              active[x] |= std::uint64_t{1} << bit;
+                                          });
+                                      return active;
+                                  });
         return selected_;
     }
 
