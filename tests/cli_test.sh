@@ -40,7 +40,10 @@ CMAKE
 
 # words
 works
-[ "$(wc -l <out.txt)" -le 12 ] || wrong "heddle alone prints $(wc -l <out.txt) lines, over 12"
+[ "$(wc -l <out.txt)" -eq 8 ] || wrong "heddle alone prints $(wc -l <out.txt) lines, not 8"
+for name in $("$heddle" help-tables | sed -n 's/^\*\*heddle \(.*\)\*\*$/\1/p'); do
+    grep -qw -- "$name" out.txt || wrong "heddle alone does not name $name"
+done
 works --version
 for command in info generate voxelize material preview; do
     works "$command" --help
@@ -191,7 +194,27 @@ fi
 [ "$(grep -c bytes_per_voxel out.txt)" -eq 0 ] || wrong "curves have no levels"
 works info one.vdb
 grep -q '^level 0 .* KiB' out.txt || wrong "info lists no level 0: $(cat out.txt)"
-fails 3 "one.vdb: has no level 1; its only level is 0" preview one.vdb --level 1 -o one.png
+works voxelize knit.bcc --yarn cotton --voxels 64 --levels 0 -o flat.vdb
+fails 3 "flat.vdb: has no level 1; its only level is 0" preview flat.vdb --level 1 -o one.png
+fails 3 "one.vdb: has no level 9; its levels are 0 to 6" preview one.vdb --level 9 -o one.png
+works preview one.vdb --level 5 -o one.png
+# levels again: from masks bit for bit, without them not if --exact
+works voxelize knit.bcc --yarn cotton --voxels 64 --keep-masks --correlation -o masks.vdb
+works info masks.vdb --json
+masks=$(json content_hash)
+works lod masks.vdb --exact -o again.vdb
+works info again.vdb --json
+[ "$(json content_hash)" = "$masks" ] || wrong "levels built again from masks differ"
+works lod one.vdb --lod single --lobes 1 -o single.vdb
+works info single.vdb --json
+[ "$(json lod)" = single ] || wrong "lod single says $(json lod)"
+echo old >kept.vdb
+fails 3 "one.vdb: holds no columns and sums" lod one.vdb --exact -o kept.vdb
+fails 3 "kept.vdb: " lod kept.vdb -o new.vdb
+fails 2 "--levels" voxelize knit.bcc --levels -1 -o kept.vdb
+fails 2 "did you mean 'moments'" lod one.vdb --lod moment -o kept.vdb
+grep -q '^old$' kept.vdb || wrong "a refused command changed its output"
+[ ! -e new.vdb ] || wrong "a refused command left an output"
 works material one.vdb --set 0.albedo=0.8,0.2,0.1 -o red.vdb --json
 works info red.vdb --json
 [ "$(json content_hash)" = "$hash" ] || wrong "another colour gives different voxels"

@@ -68,16 +68,16 @@ std::string quote_line(const std::vector<std::string>& words) {
     return line;
 }
 
+/// Eight lines; a test checks that every command is in them.
 std::string overview() {
-    std::string text =
-        "heddle " HEDDLE_VERSION ": yarn, hair and meshes to sparse anisotropic volumes\n"
-        "usage: heddle COMMAND ... [--help]\n";
-    for (const Command& command : commands()) {
-        text += str("  ", command.name, std::string(10 - command.name.size(), ' '), command.summary,
-                    "\n");
-    }
-    return text + "first: heddle generate knit -o knit.bcc\n"
-                  "then:  heddle voxelize knit.bcc --yarn cotton -o knit.vdb\n";
+    return "heddle " HEDDLE_VERSION ": yarn, hair and meshes to sparse anisotropic volumes\n"
+           "usage: heddle COMMAND ... [--help]\n"
+           "make:   generate (knit, weave, hair, grass, brushed plate), voxelize (a .vdb of them)\n"
+           "look:   info (what a file holds), preview (a picture), lod-report (how exact levels are)\n"
+           "change: lod (the levels of a .vdb), material (its materials)\n"
+           "first:  heddle generate knit -o knit.bcc\n"
+           "then:   heddle voxelize knit.bcc --yarn cotton -o knit.vdb\n"
+           "and:    heddle preview knit.vdb -o knit.png\n";
 }
 
 void run_command(const Command& command, const std::vector<std::string>& words) {
