@@ -73,7 +73,7 @@ std::string overview() {
     return "heddle " HEDDLE_VERSION ": yarn, hair and meshes to sparse anisotropic volumes\n"
            "usage: heddle COMMAND ... [--help]\n"
            "make:   generate (knit, weave, hair, grass, brushed plate), voxelize (a .vdb of them)\n"
-           "look:   info (what a file holds), preview (a picture), lod-report (how exact levels are)\n"
+           "look:   info (what a file holds), preview (a picture), lod-report (errors of levels)\n"
            "change: lod (the levels of a .vdb), material (its materials)\n"
            "first:  heddle generate knit -o knit.bcc\n"
            "then:   heddle voxelize knit.bcc --yarn cotton -o knit.vdb\n"

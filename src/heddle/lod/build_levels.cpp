@@ -1,6 +1,7 @@
 #include <heddle/lod/build_levels.h>
 
 #include <heddle/base/error.h>
+#include <heddle/base/lender.h>
 #include <heddle/base/parallel.h>
 #include <heddle/lod/correlation.h>
 #include <heddle/lod/join_pieces.h>
@@ -106,30 +107,6 @@ struct Workspace {
     }
 };
 
-/// Lends workspaces to whichever thread asks.
-class Workspaces {
-public:
-    template <typename Body>
-    void with(const Body& body) {
-        std::unique_ptr<Workspace> mine;
-        {
-            const std::scoped_lock lock(mutex_);
-            if (!idle_.empty()) {
-                mine = std::move(idle_.back());
-                idle_.pop_back();
-            }
-        }
-        if (!mine) mine = std::make_unique<Workspace>();
-        body(*mine);
-        const std::scoped_lock lock(mutex_);
-        idle_.push_back(std::move(mine));
-    }
-
-private:
-    std::mutex mutex_;
-    std::vector<std::unique_ptr<Workspace>> idle_;
-};
-
 std::unique_ptr<VoxelGrid> make_grid(const VoxelGridInfo& info, std::vector<VoxelBlock> blocks) {
     auto grid = std::make_unique<VoxelGrid>();
     grid->about = info;
@@ -194,7 +171,7 @@ struct LevelBuilder::State {
     std::vector<std::unique_ptr<BlockKeeper>> whole; ///< levels 1 to kWholeLeafLevel
     std::vector<std::vector<VoxelBlock>> pieces;     ///< the levels above, from kWholeLeafLevel + 1
     std::unique_ptr<UpperLevels> upper;
-    Workspaces workspaces;
+    Lender<Workspace> workspaces;
     std::mutex mutex;
     VoxelBox box;
     double seconds = 0.0;
@@ -213,7 +190,7 @@ struct LevelBuilder::State {
 
 struct LevelBuilder::Sample {
     std::mutex mutex;
-    Workspaces workspaces;
+    Lender<Workspace> workspaces;
     std::array<LevelSize, kBlockLevel> level; ///< 1 to kBlockLevel
     std::int64_t workspace_bytes = 0;         ///< the largest
 };

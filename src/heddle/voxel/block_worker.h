@@ -1,12 +1,12 @@
 #pragma once
 
+#include <heddle/base/lender.h>
 #include <heddle/voxel/bin.h>
 #include <heddle/voxel/fit_block.h>
 #include <heddle/voxel/gather_fibers.h>
 #include <heddle/voxel/gather_triangles.h>
 
 #include <memory>
-#include <mutex>
 #include <span>
 #include <vector>
 
@@ -55,7 +55,7 @@ private:
     TriangleGatherer triangles_;
 };
 
-/// Lends workers to whichever thread asks: as many exist as threads ever worked at once.
+/// Workers for whichever thread asks.
 class WorkerPool {
 public:
     explicit WorkerPool(const VoxelizeContext& context) : context_(context) {}
@@ -63,24 +63,12 @@ public:
     /// Calls body(worker) with a worker of this thread's own.
     template <typename Body>
     void with(const Body& body) {
-        std::unique_ptr<BlockWorker> worker;
-        {
-            const std::scoped_lock lock(mutex_);
-            if (!idle_.empty()) {
-                worker = std::move(idle_.back());
-                idle_.pop_back();
-            }
-        }
-        if (!worker) worker = std::make_unique<BlockWorker>(context_);
-        body(*worker);
-        const std::scoped_lock lock(mutex_);
-        idle_.push_back(std::move(worker));
+        workers_.with([&] { return std::make_unique<BlockWorker>(context_); }, body);
     }
 
 private:
     const VoxelizeContext& context_;
-    std::mutex mutex_;
-    std::vector<std::unique_ptr<BlockWorker>> idle_;
+    Lender<BlockWorker> workers_;
 };
 
 } // namespace heddle
