@@ -11,15 +11,6 @@
 namespace heddle {
 namespace {
 
-/// Mean of -ln(1 - c) over the axes: stands in for the directed area that a file without sums lacks.
-double mean_depth(const Coverage& c, int subvoxels) {
-    const double cap = 1.0 - 0.5 / (static_cast<double>(subvoxels) * subvoxels);
-    const auto depth = [&](std::uint16_t of) {
-        return -std::log1p(-std::min(static_cast<double>(of) / 65535.0, cap));
-    };
-    return (depth(c.x) + depth(c.y) + depth(c.z)) / 3.0;
-}
-
 void set_sums(DirectionSums& sums, const SymmetricMatrix& M, double weight) {
     sums.weight = std::max<std::int64_t>(1, std::llround(weight));
     const float entries[6]{M.xx, M.yy, M.zz, M.xy, M.xz, M.yz};
@@ -143,6 +134,14 @@ std::uint16_t to_fixed16(double x) {
 }
 
 } // namespace
+
+double mean_depth(const Coverage& c, int subvoxels) {
+    const double cap = 1.0 - 0.5 / (static_cast<double>(subvoxels) * subvoxels);
+    const auto depth = [&](std::uint16_t of) {
+        return -std::log1p(-std::min(static_cast<double>(of) / 65535.0, cap));
+    };
+    return (depth(c.x) + depth(c.y) + depth(c.z)) / 3.0;
+}
 
 void OpenLevel::reset(int level_in, Vec3i block) {
     level = level_in;
