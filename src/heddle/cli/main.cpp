@@ -73,7 +73,7 @@ std::string overview() {
         "heddle " HEDDLE_VERSION ": yarn, hair and meshes to sparse anisotropic volumes\n"
         "usage: heddle COMMAND ... [--help]\n";
     for (const Command& command : commands()) {
-        text += str("  ", command.name, std::string(10 - command.name.size(), ' '), command.summary,
+        text += str("  ", command.name, std::string(12 - command.name.size(), ' '), command.summary,
                     "\n");
     }
     return text + "first: heddle generate knit -o knit.bcc\n"

@@ -27,7 +27,7 @@ struct LevelErrors {
     std::int64_t lobes = 0;
     int parents = 0;     ///< voxels that were measured
     double sigma = 0.0;  ///< mean of DirectionError::sigma
-    double cells = 0.0;  ///< mean of DirectionError::cells; the truth's own noise is about .01
+    double cells = 0.0;  ///< mean of DirectionError::cells; the truth's own noise is about .016
     double moment = 0.0; ///< median of DirectionError::moment
     double moment_worst = 0.0;
     double lost =
