@@ -74,7 +74,11 @@ std::string head_text(const LodTable& table) {
             str(" and ", show_bytes(static_cast<double>(table.mask_bytes)), " of columns and sums");
     }
     text += str(". The file's levels were built by `", table.lod, "`. ");
-    if (table.approximate) text += "Built from stored lobes, without sums (approximate). ";
+    if (table.approximate)
+        text +=
+            "It has no sums: levels are built from stored lobes (approximate) and the finest lobes "
+            "are weighed by mean depth, where the file's levels were weighed by true sums: its own "
+            "errors hold that difference. ";
     return text + str("Coverage is compared with ", coverage_words(table.coverage), ".\n");
 }
 
@@ -156,8 +160,8 @@ Json json_of(const LevelErrors& e, std::int64_t bytes) {
             {"kind_lost", e.lost}};
 }
 
-/// A colour that people tell apart whatever colours they see [Okabe and Ito 2008], and a wide grey line
-/// for the file's own levels, which others cover.
+/// A colour that people tell apart whatever colours they see [Okabe and Ito 2008], and a wide grey
+/// line for the file's own levels, which others cover.
 PlotLine line_of(const std::string& name) {
     PlotLine line;
     line.name = name;

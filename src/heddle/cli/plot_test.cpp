@@ -47,7 +47,7 @@ TEST(Plot, ALogarithmicPanelTakesEqualRatiosForEqualSteps) {
             {{"",
               "",
               logarithmic,
-              {{"", {1.0}, {0, 0, 255}}, {"", {y}, {255, 0, 0}}, {"", {0.001}, {0, 255, 0}}}}});
+              {{"", {1.0}, {0, 0, 255}}, {"", {0.001}, {0, 255, 0}}, {"", {y}, {255, 0, 0}}}}});
         std::int32_t low = 0;
         for (std::int32_t row = 0; row < 400; ++row) { // the names stand below
             for (std::int32_t x = 0; x < image.width; ++x) {

@@ -50,10 +50,10 @@ struct LevelReportOptions {
 
 /// Measures levels of detail by brute force against all that the finest level holds below a voxel.
 ///
-/// Truth of directions: the finest lobes below a parent, weighed by their sums where the file has such
-/// (then S is fitted to these, unquantized), else by share times mean depth as rebuild_levels() has it.
-/// Lobes of tangents and of normals are measured apart, then averaged by weight. A method's lobes are
-/// taken as stored, packed.
+/// Truth of directions: the finest lobes below a parent, weighed by their sums where the file has
+/// such (then S is fitted to these, unquantized), else by share times mean depth as rebuild_levels()
+/// has it. Lobes of tangents and of normals are measured apart, then averaged by weight. A method's
+/// lobes are taken as stored, packed.
 ///
 /// From the first level of which all voxels are measured on, truths are sums of the children's: the
 /// finest lobes are pooled about 1.4 times in all, 3 us each and core. Memory: 20 KiB a parent.
@@ -69,7 +69,8 @@ public:
     LevelReporter(const LevelReporter&) = delete;
     LevelReporter& operator=(const LevelReporter&) = delete;
 
-    /// Takes what the chosen parents hold; the levels may be dropped then. The first call chooses them.
+    /// Takes what the chosen parents hold; the levels may be dropped then. The first call chooses
+    /// them.
     /// @param levels  of the same finest level, at least two
     /// @throws Error  InvalidArgument: other voxels than the first call's
     void take(const std::string& name, const VoxelLevels& levels);
@@ -84,8 +85,8 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// Blocks of a source, chosen by seed, that hold about so many voxels: a part to measure slow methods
-/// on. Ascending numbers; all blocks where there are fewer voxels.
+/// Blocks of a source, chosen by seed, that hold about so many voxels: a part to measure slow
+/// methods on. Ascending numbers; all blocks where there are fewer voxels.
 [[nodiscard]] std::vector<std::size_t>
 choose_blocks(const VoxelSource& source, std::int64_t voxels, std::uint64_t seed);
 

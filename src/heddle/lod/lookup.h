@@ -75,8 +75,8 @@ struct VoxelView {
 
 /// One level's voxels by index: arrays that lie in one piece each, for a host or a device.
 ///
-/// A hash table names the leaf, its masks count the voxels before: one probe on average (the table is
-/// at most half full), and no search inside the leaf.
+/// A hash table names the leaf, its masks count the voxels before: one probe or two on average (the
+/// table is at most half full), and no search inside the leaf.
 struct LevelView {
     static constexpr std::uint32_t kNone = 0xffffffff;
 
@@ -111,9 +111,9 @@ struct LevelSample {
 
 /// All levels of an object by place: what a renderer walks through.
 ///
-/// A lookup costs two cache misses for the leaf and one per array that is read. Memory: what blocks take
-/// for the same (columns and sums left out), 2 bytes a voxel for its count of lobes, 112 bytes and 8 to
-/// 16 of slots a leaf. Never changes: any number of threads.
+/// A lookup costs two cache misses for the leaf and one per array that is read. Memory: what blocks
+/// take for the same (columns and sums left out), 2 bytes a voxel for its count of lobes, 112 bytes
+/// and 8 to 16 of slots a leaf. Never changes: any number of threads.
 class LevelLookup {
 public:
     /// Copies the levels; they may be dropped then.
@@ -124,8 +124,8 @@ public:
     [[nodiscard]] const VoxelGridInfo& info(int level) const { return at(level).info; }
     [[nodiscard]] LevelView view(int level) const;
 
-    /// The voxel of a level that a place lies in; nothing where none is. A place on a face belongs to
-    /// the voxel of the higher index.
+    /// The voxel of a level that a place lies in; nothing where none is. A place on a face belongs
+    /// to the voxel of the higher index.
     /// @param level     from 0 to level_count() - 1
     /// @param position  scene units; not finite gives nothing
     [[nodiscard]] std::optional<VoxelView> find(int level, Vec3d position) const;
@@ -156,7 +156,7 @@ private:
 };
 
 HEDDLE_HD inline std::uint32_t LevelView::hash(Vec3i leaf) {
-    // three odd factors without common structure, then the high bits into the low ones [Teschner 2003]
+    // three odd factors [Teschner 2003], then the high bits into the low ones
     const auto word = [](std::int32_t v) { return static_cast<std::uint32_t>(v >> 3); };
     std::uint32_t h =
         word(leaf.x) * 73856093u ^ word(leaf.y) * 19349663u ^ word(leaf.z) * 83492791u;

@@ -10,8 +10,8 @@
 namespace heddle {
 namespace {
 
-/// Points over all lobes of a parent, but each gets its least: a parent's truth and the sum of its
-/// children's, whose lobes get more, are .016 apart in L1 (.07 at most; twice the points: .009, .04).
+/// Points over all lobes of a parent, but each gets its least. A parent's truth and the sum of its
+/// children's, whose lobes get more, are .016 apart in L1 (.07 at most); with twice the points .009.
 constexpr std::int64_t kPoints = 65536;
 constexpr std::int64_t kLeastPoints = 64;
 

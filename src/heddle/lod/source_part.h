@@ -9,8 +9,8 @@
 
 namespace heddle {
 
-/// Some blocks of another source, or all, without a copy: levels can be built over it while the other
-/// is kept.
+/// Some blocks of another source, or all, without a copy: levels can be built over it while the
+/// other is kept.
 class SourcePart final : public VoxelSource {
 public:
     /// All blocks.

@@ -25,8 +25,8 @@ public:
 
     [[nodiscard]] const VoxelSource& source() const { return source_; }
 
-    /// Calls visit(Voxel) for all voxels of the source that lie in one `levels` levels above it, in a
-    /// fixed order. Safe from several threads.
+    /// Calls visit(Voxel) for all voxels of the source that lie in one `levels` levels above it, in
+    /// a fixed order. Safe from several threads.
     /// @param levels  0: the voxel itself
     /// @param index   of the coarser one
     template <typename Visit>
