@@ -111,9 +111,10 @@ struct LevelSample {
 
 /// All levels of an object by place: what a renderer walks through.
 ///
-/// A lookup costs two cache misses for the leaf and one per array that is read. Memory: what blocks
-/// take for the same (columns and sums left out), 2 bytes a voxel for its count of lobes, 112 bytes
-/// and 8 to 16 of slots a leaf. Never changes: any number of threads.
+/// A lookup reads about six cache lines: slot, leaf (two), place of lobes, coverage, lobe. In random
+/// order over 8.1 M voxels that is .15 us at level 3 and .6 us at level 0, on a busy machine. Memory:
+/// what blocks take for the same (columns and sums left out), 2 bytes a voxel, 112 bytes and 8 to 16
+/// of slots a leaf: 176 MiB there, where blocks take 153. Never changes: any number of threads.
 class LevelLookup {
 public:
     /// Copies the levels; they may be dropped then.
