@@ -45,7 +45,7 @@ for name in $("$heddle" help-tables | sed -n 's/^\*\*heddle \(.*\)\*\*$/\1/p'); 
     grep -qw -- "$name" out.txt || wrong "heddle alone does not name $name"
 done
 works --version
-for command in info generate voxelize material preview; do
+for command in info generate voxelize lod lod-report material preview; do
     works "$command" --help
     grep -q -- '--threads N' out.txt || wrong "no --threads in the help of $command"
 done
@@ -222,6 +222,22 @@ fails 2 "did you mean 'albedo'?" material one.vdb --set 0.albdo=1,1,1
 fails 1 "nowhere" material one.vdb --set 0.alpha=1 -o nowhere/red.vdb
 works preview one.vdb -o one.png
 [ "$(head -c 4 one.png | tail -c 3)" = PNG ] || wrong "the preview is no PNG"
+
+# levels
+works voxelize knit.bcc --yarn cotton --voxels 48 --keep-masks -o masks.vdb --quiet
+works lod-report masks.vdb --parents 20 --methods moments,naive --plot errors.png
+[ "$(grep -c '^| 1 |' out.txt)" -eq 3 ] || wrong "not a row for the file and two methods: $(cat out.txt)"
+[ "$(head -c 4 errors.png | tail -c 3)" = PNG ] || wrong "the plot is no PNG"
+works lod-report masks.vdb --parents 20 --methods single --json
+[ "$(json coverage_truth)" = union ] || wrong "masks give no union"
+works lod-report masks.vdb --parents 20 --methods wasserstein --part 500 --quiet
+works voxelize knit.bcc --voxels 32 --levels 0 -o level0.vdb --quiet
+fails 3 "level0.vdb: has the finest level alone" lod-report level0.vdb
+fails 3 "missing.vdb" lod-report missing.vdb
+fails 3 "knit.bcc: byte 0: not a VDB" lod-report knit.bcc
+fails 2 "did you mean 'moments'?" lod-report masks.vdb --methods moment
+fails 2 "--plot: 'x.pdf' must end in .png" lod-report masks.vdb --plot x.pdf
+fails 1 "nowhere" lod-report masks.vdb --plot nowhere/x.png
 
 [ "$failures" -eq 0 ] && echo "all as expected"
 exit "$failures"

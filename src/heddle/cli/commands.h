@@ -10,13 +10,15 @@ namespace heddle::cli {
 [[nodiscard]] Command generate_command();
 [[nodiscard]] Command voxelize_command();
 [[nodiscard]] Command lod_command();
+[[nodiscard]] Command lod_report_command();
 [[nodiscard]] Command material_command();
 [[nodiscard]] Command preview_command();
 
 /// All subcommands, in the order of a first use.
 [[nodiscard]] inline const std::vector<Command>& commands() {
-    static const std::vector<Command> all{info_command(), generate_command(), voxelize_command(),
-                                          lod_command(),  material_command(), preview_command()};
+    static const std::vector<Command> all{
+        info_command(),       generate_command(), voxelize_command(), lod_command(),
+        lod_report_command(), material_command(), preview_command()};
     return all;
 }
 

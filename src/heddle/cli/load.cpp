@@ -138,7 +138,7 @@ void apply_model(Geometry& geometry, const Arguments& arguments) {
     }
 }
 
-void check_output(const std::string& path, const std::string& suffix) {
+void check_output(const std::string& path, const std::string& suffix, const std::string& option) {
     namespace fs = std::filesystem;
     std::error_code ignored;
     // OutputFile would write to a device, but a .vdb needs seeks: said before the work starts
@@ -147,7 +147,7 @@ void check_output(const std::string& path, const std::string& suffix) {
                     "write to another place", {.path = path});
     }
     if (suffix_of(path) != suffix) {
-        throw UsageError(str("--output: '", path, "' must end in ", suffix));
+        throw UsageError(str(option, ": '", path, "' must end in ", suffix));
     }
     write_output([&path] { const OutputFile probe(path); });
 }

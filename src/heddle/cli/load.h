@@ -28,9 +28,12 @@ void apply_model(Geometry& geometry, const Arguments& arguments);
 
 /// Throws unless a file can be put at `path`: asked before long work, not after it.
 /// @param suffix  that the path must end in
+/// @param option  that gave the path
 /// @throws UsageError  another suffix
 /// @throws Error       CannotWrite: a folder, a device, a place without permission
-void check_output(const std::string& path, const std::string& suffix);
+void check_output(const std::string& path,
+                  const std::string& suffix,
+                  const std::string& option = "--output");
 
 /// Runs `write`, and makes of what it throws for a bad place or a full disk an Error{CannotWrite}.
 void write_output(const std::function<void()>& write);

@@ -29,6 +29,9 @@ void Report::add(const std::string& key,
     rows_.emplace_back(label, shown);
 }
 
+void Report::data(const std::string& key, nlohmann::ordered_json value) {
+    values_[key] = std::move(value);
+}
 void Report::text(const std::string& label, const std::string& value) {
     add(key_of(label, ""), label, value, value);
 }
@@ -79,6 +82,7 @@ void Report::print() const {
         return;
     }
     if (quiet) return;
+    if (!page_.empty()) return print_out(page_);
     std::size_t width = 0;
     for (const auto& [label, shown] : rows_) width = std::max(width, label.size());
     std::string out;

@@ -29,6 +29,10 @@ public:
                nlohmann::ordered_json value,
                const std::vector<std::string>& headings,
                const std::vector<std::vector<std::string>>& rows);
+    /// Any JSON value, in JSON alone.
+    void data(const std::string& key, nlohmann::ordered_json value);
+    /// Text that is printed as it is in place of the table; JSON does not hold it.
+    void page(const std::string& text) { page_ = text; }
     /// One sentence that the user should see: on stderr at once, and in the JSON's "notes".
     void note(const std::string& sentence);
 
@@ -41,6 +45,7 @@ public:
 private:
     nlohmann::ordered_json values_ = nlohmann::ordered_json::object();
     std::vector<std::pair<std::string, std::string>> rows_;
+    std::string page_;
 };
 
 /// Writes `text` to stdout.

@@ -14,15 +14,6 @@ namespace {
 /// Leave an error of 3e-5 in a moment, where packing has left 1e-3.
 constexpr int kMomentSteps = 3;
 
-/// Mean of -ln(1 - c) over the axes: stands in for the directed area that a file without sums lacks.
-double mean_depth(const Coverage& c, int subvoxels) {
-    const double least = 0.5 / (static_cast<double>(subvoxels) * subvoxels);
-    const auto open = [&](std::uint16_t of) {
-        return std::max(1.0 - static_cast<double>(of) / 65535.0, least);
-    };
-    return std::log(open(c.x) * open(c.y) * open(c.z)) * (-1.0 / 3.0);
-}
-
 void set_sums(DirectionSums& sums, const SymmetricMatrix& M, double weight) {
     sums.weight = std::max<std::int64_t>(1, std::llround(weight));
     const float entries[6]{M.xx, M.yy, M.zz, M.xy, M.xz, M.yz};
@@ -150,6 +141,14 @@ std::uint16_t to_fixed16(double x) {
 }
 
 } // namespace
+
+double mean_depth(const Coverage& c, int subvoxels) {
+    const double least = 0.5 / (static_cast<double>(subvoxels) * subvoxels);
+    const auto open = [&](std::uint16_t of) {
+        return std::max(1.0 - static_cast<double>(of) / 65535.0, least);
+    };
+    return std::log(open(c.x) * open(c.y) * open(c.z)) * (-1.0 / 3.0);
+}
 
 void OpenLevel::reset(int level_in, Vec3i block) {
     level = level_in;

@@ -32,6 +32,10 @@ struct LevelOptions {
     std::uint64_t seed = 0;
 };
 
+/// Mean of -ln(1 - c) over the axes: stands in for the directed area where a file has no sums.
+/// @param subvoxels  per voxel axis: c is at most 1 - 1 / (2 columns)
+[[nodiscard]] double mean_depth(const Coverage& c, int subvoxels);
+
 /// What a voxel is before it is stored, beside its columns.
 struct OpenVoxel {
     std::int64_t hits = 0; ///< subvoxels
