@@ -76,6 +76,8 @@ struct Mixture {
 /// The mixtures of the chosen voxels.
 [[nodiscard]] std::vector<Mixture> decode(const VoxelSource& level, const Parents& parents);
 
+inline constexpr double kMomentAsked = 0.01; ///< of every voxel
+
 /// Errors of a level, over its chosen voxels.
 struct LevelErrors {
     std::size_t count = 0;                        ///< voxels that directions of this kind lie in
@@ -83,6 +85,8 @@ struct LevelErrors {
     double pooled_max = 0.0, pooled_median = 0.0; ///< against the sums of level 0
     double sigma = 0.0;                           ///< mean
     double cells = 0.0;                           ///< mean
+    std::size_t over = 0;    ///< voxels whose moment errs by more than kMomentAsked
+    double over_share = 0.0; ///< of the directed area of all that were measured
 };
 
 [[nodiscard]] LevelErrors
