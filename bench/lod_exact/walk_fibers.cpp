@@ -88,6 +88,8 @@ public:
         amplitude_ = 0.5 * static_cast<double>(yarn.migration_max - yarn.migration_min);
     }
     [[nodiscard]] std::size_t count() const { return table_.size(); }
+    /// Model units.
+    [[nodiscard]] double diameter() const { return 2.0 * static_cast<double>(table_.fiber_radius); }
 
     /// Calls visit(fiber, position).
     template <typename Visit>
@@ -131,25 +133,23 @@ private:
     double amplitude_ = 0.0;
 };
 
+/// Walks all fibers of a piece at once.
 /// @return  the longest step, scene units
-double walk_yarn(const FiberSource& source,
+double walk_yarn(const YarnFibers& fibers,
                  const FiberPiece& piece,
-                 const FiberTable& table,
+                 const YarnCourse& course,
+                 const LatticeUnits& u,
+                 int count,
                  std::vector<Directed>& out) {
-    const YarnFibers fibers(*source.yarn_of(piece.set), table);
-    const YarnCourse course = source.course(piece);
-    const LatticeUnits& u = source.units();
-    // fibers run up to twice as far as their yarn's centreline: the caller checks
-    const auto count = static_cast<int>(std::ceil(2.0 * fastest(piece.cubic) / (kStep * u.unit)));
     std::vector<Run> runs(fibers.count());
     double longest = 0.0;
     for (int j = 0; j <= count; ++j) {
         const Place place(piece.cubic, course, u.unit, static_cast<double>(j) / count);
-        const double diameter = 2.0 * static_cast<double>(table.fiber_radius) * place.scale;
         fibers.at(place, course, [&](std::size_t i, Vec3d p) {
             if (j == 0) {
                 runs[i].from = runs[i].at = p;
             } else {
+                const double diameter = fibers.diameter() * place.scale;
                 longest = std::max(longest, runs[i].go_to(p, diameter, u.voxel_size, out));
             }
         });
@@ -158,23 +158,38 @@ double walk_yarn(const FiberSource& source,
     return longest;
 }
 
+/// Fibers outside a bend run farther than their yarn's centreline: how many steps they need is tried.
+void walk_yarn(const FiberSource& source,
+               const FiberPiece& piece,
+               const FiberTable& table,
+               std::vector<Directed>& out) {
+    const YarnFibers fibers(*source.yarn_of(piece.set), table);
+    const YarnCourse course = source.course(piece);
+    const std::size_t before = out.size();
+    const double allowed = kStep * source.units().unit;
+    double steps = 1.5 * fastest(piece.cubic) / allowed;
+    for (double longest = allowed * 2.0; longest > allowed;) {
+        out.resize(before);
+        longest = walk_yarn(fibers, piece, course, source.units(),
+                            static_cast<int>(std::ceil(steps)), out);
+        steps *= 1.05 * longest / allowed;
+    }
+}
+
 /// A curve that is one fiber.
-double walk_plain(const FiberSource& source, const FiberPiece& piece, std::vector<Directed>& out) {
+void walk_plain(const FiberSource& source, const FiberPiece& piece, std::vector<Directed>& out) {
     const LatticeUnits& u = source.units();
     const YarnCourse course = source.course(piece);
     const auto count = static_cast<int>(std::ceil(fastest(piece.cubic) / (kStep * u.unit)));
     Run run;
     run.from = run.at = piece.cubic.at(0.0);
-    double longest = 0.0;
     for (int j = 1; j <= count; ++j) {
         const double t = static_cast<double>(j) / count;
-        const double scale =
+        const double radius =
             (1.0 - t) * static_cast<double>(course.scale0) + t * static_cast<double>(course.scale1);
-        longest = std::max(longest,
-                           run.go_to(piece.cubic.at(t), 2.0 * scale * u.unit, u.voxel_size, out));
+        run.go_to(piece.cubic.at(t), 2.0 * radius * u.unit, u.voxel_size, out);
     }
     run.flush(out);
-    return longest;
 }
 
 /// The fibers of the yarn that was last asked for.
@@ -201,17 +216,13 @@ void walk_span(const FiberSource& source,
                std::vector<Directed>& out) {
     const FiberPiece whole = source.whole_span(span);
     const YarnType* yarn = source.yarn_of(whole.set);
-    double longest = 0.0;
     for (std::uint32_t part = 0; part < whole.parts; ++part) {
         const FiberPiece piece = FiberSource::part_of(whole, part);
-        longest = std::max(longest, yarn == nullptr || yarn->model == YarnModel::Solid
-                                        ? walk_plain(source, piece, out)
-                                        : walk_yarn(source, piece, memo.of(source, piece), out));
-    }
-    if (longest > 1.0001 * kStep * source.units().unit) {
-        throw Error(ErrorCode::Internal,
-                    str("a step of ", longest / source.units().unit, " subvoxels"),
-                    "walk in shorter ones");
+        if (yarn == nullptr || yarn->model == YarnModel::Solid) {
+            walk_plain(source, piece, out);
+        } else {
+            walk_yarn(source, piece, memo.of(source, piece), out);
+        }
     }
 }
 
