@@ -1,0 +1,95 @@
+#pragma once
+
+#include "directions.h"
+
+#include <heddle/sggx/mixture_error.h>
+#include <heddle/voxel/voxel_grid.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace heddle::bench {
+
+inline constexpr std::size_t kKinds = 2; ///< of Kind
+
+/// Second moment and weight, pooled.
+struct PooledMoment {
+    std::array<double, 6> moment{};
+    double weight = 0.0;
+};
+
+/// Some voxels of a level, and what lies in them: all directions of the geometry, by brute force.
+class Parents {
+public:
+    /// @param level  its voxels are looked at, not their lobes
+    /// @param most   that are chosen, by seeded hash; all where the level has no more
+    Parents(const VoxelSource& level, std::size_t most);
+
+    [[nodiscard]] std::size_t size() const { return voxels_.size(); }
+    [[nodiscard]] bool has_all() const { return voxels_.size() == there_; }
+    [[nodiscard]] std::size_t voxels_in_level() const { return there_; }
+    [[nodiscard]] Vec3i voxel(std::size_t i) const { return voxels_[i]; }
+
+    static constexpr std::uint32_t kNotThere = 0xffffffffu; ///< the level has no such voxel
+    static constexpr std::uint32_t kNotChosen = 0xfffffffeu;
+    /// Number of a voxel of this level among the chosen, or one of the above.
+    [[nodiscard]] std::uint32_t find(Vec3i at) const;
+
+    /// Adds directions of level 0, on all threads; each parent's in their order.
+    void add(std::span<const Directed> directions);
+    /// Adds what the parents of the level below hold, where they are all of its voxels.
+    void add_below(const Parents& below);
+    /// Pools level 0's unquantized sums.
+    /// @param finest  with masks
+    void pool(const VoxelSource& finest);
+
+    [[nodiscard]] const DirectionTruth& truth(std::size_t i, Kind kind) const {
+        return truths_[i * kKinds + static_cast<std::size_t>(kind)];
+    }
+    [[nodiscard]] const PooledMoment& pooled(std::size_t i, Kind kind) const {
+        return pooled_[i * kKinds + static_cast<std::size_t>(kind)];
+    }
+    /// Share of the geometry's directed area that lies in no voxel of this level.
+    [[nodiscard]] double lost() const { return total_ > 0.0 ? lost_ / total_ : 0.0; }
+
+private:
+    int level_ = 0;
+    std::size_t there_ = 0;
+    Vec3i lo_, size_;
+    std::vector<std::uint32_t> number_; ///< of each voxel of the box
+    std::vector<Vec3i> voxels_;
+    std::vector<DirectionTruth> truths_;
+    std::vector<PooledMoment> pooled_;
+    std::vector<std::uint32_t> found_; ///< scratch of add()
+    double lost_ = 0.0;
+    double total_ = 0.0;
+};
+
+/// What a level holds of a voxel, decoded.
+struct Mixture {
+    std::array<std::vector<MixtureLobe>, kKinds> lobes;
+};
+
+/// The mixtures of the chosen voxels.
+[[nodiscard]] std::vector<Mixture> decode(const VoxelSource& level, const Parents& parents);
+
+inline constexpr double kMomentAsked = 0.01; ///< of every voxel
+
+/// Errors of a level, over its chosen voxels.
+struct LevelErrors {
+    std::size_t count = 0;                        ///< voxels that directions of this kind lie in
+    double moment_max = 0.0, moment_median = 0.0; ///< against the geometry
+    double pooled_max = 0.0, pooled_median = 0.0; ///< against the sums of level 0
+    double sigma = 0.0;                           ///< mean
+    double cells = 0.0;                           ///< mean
+    std::size_t over = 0;    ///< voxels whose moment errs by more than kMomentAsked
+    double over_share = 0.0; ///< of the directed area of all that were measured
+};
+
+[[nodiscard]] LevelErrors
+measure(const std::vector<Mixture>& mixtures, const Parents& parents, Kind kind);
+
+} // namespace heddle::bench
