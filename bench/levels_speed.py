@@ -2,7 +2,7 @@
 """Speed, memory and size of the levels of detail that `heddle voxelize` builds, as a markdown table.
 
 usage: bench/levels_speed.py [--quick]
-The sweater at 1024 and 2048 voxels, straight hair, generated cloth of solid yarn from 1 M to 50 M voxels, and the scarf part
+The sweater at 1024 and 2048 voxels, straight hair, generated cloth of solid yarn from 1 M to 50 M voxels of one size, and the scarf part
 (an import: levels from stored lobes). Times of levels are those of all threads together, divided by their number.
 Needs build/release/bin/heddle (or HEDDLE=...) and ../shared/data (or HEDDLE_TEST_DATA=...).
 """
@@ -61,10 +61,13 @@ def main():
             result = heddle("voxelize", os.path.join(DATA, "hair/straight.hair"), "-o", out)
             row("straight hair, 512", result, out)
         cloth = os.path.join(folder, "cloth.bcc")
-        heddle("generate", "plain", "--counts", "200,200", "-o", cloth)
-        for voxels in (900,) if quick else (900, 2000, 4000, 6400):
-            result = heddle("voxelize", cloth, "-o", out, "--voxels", str(voxels))
-            row(f"plain weave, solid yarn, {voxels}", result, out)
+        size = None  # of a voxel, the same for all: only the cloth grows
+        for yarns in (88, 200) if quick else (88, 200, 400, 620):
+            heddle("generate", "plain", "--counts", f"{yarns},{yarns}", "-o", cloth)
+            how = ["--voxel-size", size] if size else ["--voxels", "400"]
+            result = heddle("voxelize", cloth, "-o", out, *how)
+            size = size or repr(result["voxel_size"][0])
+            row(f"plain weave, {yarns} x {yarns} solid yarns", result, out)
         scarf = os.path.join(DATA, "volume/scarf-part.tar.xz")
         if os.path.exists(scarf):
             subprocess.run(["tar", "xJf", scarf, "-C", folder], check=True)

@@ -5,7 +5,7 @@
 
 namespace heddle {
 
-inline constexpr std::int32_t kFormatVersion = 1; ///< of docs/format.md
+inline constexpr std::int32_t kFormatVersion = 2; ///< of docs/format.md
 inline constexpr std::size_t kMaxLevels = 28;     ///< 8 x 2^27 subvoxels are still an int32
 
 // File-level metadata keys
