@@ -1,6 +1,7 @@
 #include <heddle/cli/voxelize_vol.h>
 
 #include <heddle/base/memory.h>
+#include <heddle/base/parallel.h>
 #include <heddle/cli/level_options.h>
 #include <heddle/cli/load.h>
 #include <heddle/cli/progress_bar.h>
@@ -45,6 +46,30 @@ VolOptions vol_options(const Arguments& arguments) {
 
 std::string show(Vec3d v) {
     return str(v.x, ", ", v.y, ", ", v.z);
+}
+
+/// The blocks in memory where that holds them: levels and each grid of the file walk all of them, and the
+/// source decodes them anew every time.
+std::unique_ptr<VoxelSource>
+hold(std::unique_ptr<VoxelSource> source, const Arguments& arguments, Progress& progress) {
+    const VoxelGridInfo& info = source->info();
+    const std::int64_t limit =
+        arguments.given("memory") ? arguments.bytes("memory") : available_bytes() / 2;
+    const std::int64_t leaves = info.voxel_count / 8; // at most, in what is worth holding
+    if (2 * predict_block_bytes(leaves, info.voxel_count, info.lobe_count, info.fields) > limit) {
+        return source;
+    }
+    auto grid = std::make_unique<VoxelGrid>();
+    grid->about = info;
+    grid->blocks.resize(source->block_count());
+    progress.begin("decode", "blocks", static_cast<std::int64_t>(grid->blocks.size()));
+    parallel_chunks(grid->blocks.size(), 1, [&](std::size_t i, std::size_t) {
+        progress.check();
+        VoxelBlock scratch;
+        grid->blocks[i] = source->block(i, scratch);
+        progress.advance(1);
+    });
+    return grid;
 }
 
 } // namespace
@@ -117,7 +142,8 @@ void voxelize_volume(const Arguments& arguments, Report& report, ProgressBar& ba
     VolVolume volume = read_vol(layout, options, bar);
     bar.finish();
     for (const std::string& note : volume.notes) report.note(note);
-    const VoxelLevels levels = add_levels(std::move(volume.grid), arguments, bar);
+    const VoxelLevels levels =
+        add_levels(hold(std::move(volume.grid), arguments, bar), arguments, bar);
     write_output([&] { write_vdb(levels, output, bar); });
     bar.finish();
     report.text("output", output);
