@@ -1,4 +1,5 @@
 #include <heddle/cli/level_options.h>
+#include <heddle/lod/rebuild_levels.h>
 
 #include <heddle/base/error.h>
 #include <heddle/cli/text.h>

@@ -7,11 +7,29 @@
 #include <heddle/cli/report.h>
 #include <heddle/io/vdb/read_vdb.h>
 #include <heddle/io/vdb/write_vdb.h>
+#include <heddle/lod/rebuild_levels.h>
 
 #include <chrono>
 
 namespace heddle::cli {
 namespace {
+
+/// The file's levels, and those that are built while the old ones are there.
+/// @throws Error  OutOfMemory
+void check_memory(const std::vector<VoxelGridInfo>& infos, const std::string& path) {
+    std::int64_t needed = std::int64_t{64} << 20;
+    for (const VoxelGridInfo& info : infos) {
+        const std::int64_t leaves = info.voxel_count / 16; // of 512 voxels, thinly filled
+        const std::int64_t bytes =
+            predict_block_bytes(leaves, info.voxel_count, info.lobe_count, info.fields);
+        needed += info.level == 0 ? bytes : 2 * bytes;
+    }
+    if (needed <= available_bytes()) return;
+    throw Error(ErrorCode::OutOfMemory,
+                str("its levels need about ", needed >> 20, " MiB, ", available_bytes() >> 20,
+                    " MiB are free"),
+                "free some, or use a machine with more", {.path = path});
+}
 
 void run_lod(const Arguments& arguments, Report& report, ProgressBar& bar) {
     const auto start = std::chrono::steady_clock::now();
@@ -23,7 +41,9 @@ void run_lod(const Arguments& arguments, Report& report, ProgressBar& bar) {
     check_output(output, ".vdb");
     bar.begin("read", "files", 1);
     const std::string& path = arguments.text("FILE");
-    if (arguments.given("exact") && !read_infos(path).front().fields.masks) {
+    const std::vector<VoxelGridInfo> infos = read_infos(path);
+    check_memory(infos, path);
+    if (arguments.given("exact") && !infos.front().fields.masks) {
         throw Error(ErrorCode::BadFile, "holds no columns and sums, so levels would be approximate",
                     "voxelize it with --keep-masks, or leave out --exact", {.path = path});
     }

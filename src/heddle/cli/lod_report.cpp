@@ -12,6 +12,7 @@
 #include <heddle/io/vdb/read_vdb.h>
 #include <heddle/io/vdb/write_vdb.h>
 #include <heddle/lod/build_levels.h>
+#include <heddle/lod/rebuild_levels.h>
 #include <heddle/lod/source_part.h>
 
 #include <algorithm>

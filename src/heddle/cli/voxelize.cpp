@@ -39,6 +39,9 @@ VoxelizeOptions voxelize_options(const Arguments& arguments, const std::string& 
     if (arguments.given("memory")) options.memory_bytes = arguments.bytes("memory");
     options.footprints = static_cast<std::int32_t>(arguments.integer("footprints"));
     options.correlation = arguments.given("correlation");
+    if (arguments.text("lod") == "naive" && (options.footprints != 0 || options.correlation)) {
+        throw UsageError("--lod naive averages coverage: it has no footprints and no correlation");
+    }
     options.keep_sums = arguments.given("keep-masks");
     options.seed = static_cast<std::uint64_t>(arguments.integer("seed"));
     const std::string folder = std::filesystem::path(output).parent_path().string();

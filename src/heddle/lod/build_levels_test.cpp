@@ -1,5 +1,6 @@
 #include <heddle/base/parallel.h>
 #include <heddle/lod/build_levels.h>
+#include <heddle/lod/rebuild_levels.h>
 #include <heddle/sggx/moments.h>
 #include <heddle/sggx/pack.h>
 #include <heddle/voxel/test_bundle.h>
@@ -255,6 +256,8 @@ TEST(BuildLevels, ARebuildWithMasksGivesTheSameBits) {
 TEST(BuildLevels, ARebuildWithoutMasksKeepsTheFilesCoverageAndSaysThatItIsApproximate) {
     VoxelizeOptions options = with_sums(120);
     options.keep_sums = false;
+    options.footprints = 8;
+    options.correlation = true;
     const std::vector<LevelContent> before = contents_of(build(swatch(), options));
     Progress silent;
     EXPECT_THROW(rebuild_levels(build(swatch(), options), {}, true, silent), Error);
@@ -263,8 +266,40 @@ TEST(BuildLevels, ARebuildWithoutMasksKeepsTheFilesCoverageAndSaysThatItIsApprox
     EXPECT_TRUE(again[1]->info().approximate);
     for (std::size_t l = 0; l < again.size(); ++l) {
         for (const auto& [at, content] : content_of(*again[l])) {
-            Coverage now = content.coverage;
-            EXPECT_EQ(now, before[l].at(at).coverage) << "level " << l;
+            const Content& first = before[l].at(at);
+            EXPECT_EQ(content.coverage, first.coverage) << "level " << l;
+            EXPECT_EQ(content.footprints, first.footprints) << "level " << l;
+            EXPECT_EQ(content.correlation, first.correlation) << "level " << l;
+        }
+    }
+}
+
+TEST(BuildLevels, WhereALevelCannotHaveWhatNeighboursShareNoneHas) {
+    VoxelizeOptions options = with_sums(60);
+    options.footprints = 4;
+    options.correlation = true;
+    LodOptions naive;
+    naive.method = LodMethod::Naive;
+    Progress silent;
+    VoxelLevels cut = build(swatch(), options); // fewer levels than there will be, and no masks
+    cut.resize(2);
+    for (VoxelBlock& block : dynamic_cast<VoxelGrid&>(*cut[0]).blocks) {
+        block.columns = {};
+        block.moments = {};
+        block.map_sums = {};
+    }
+    cut[0]->about.fields.masks = false;
+    const VoxelLevels levels[2] = {rebuild_levels(std::move(cut), {}, false, silent),
+                                   rebuild_levels(build(swatch(), options), naive, true, silent)};
+    for (const VoxelLevels& of : levels) {
+        ASSERT_GT(of.size(), 4u);
+        for (const auto& level : of) {
+            EXPECT_EQ(level->info().fields.footprints, 0);
+            EXPECT_FALSE(level->info().fields.correlation);
+            for_each_voxel(*level, [&](const FoundVoxel& v) {
+                ASSERT_EQ(v.footprints, (std::array<std::uint64_t, 3>{}));
+                ASSERT_EQ(v.correlation, (std::array<std::uint8_t, 3>{}));
+            });
         }
     }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <heddle/base/progress.h>
+#include <heddle/lod/rebuild_levels.h>
 #include <heddle/lod/voxel_index.h>
 #include <heddle/voxel/voxel_grid.h>
 

@@ -2,6 +2,7 @@
 #include <heddle/lod/build_levels.h>
 #include <heddle/lod/level_report.h>
 #include <heddle/lod/parent_truth.h>
+#include <heddle/lod/rebuild_levels.h>
 #include <heddle/lod/source_part.h>
 #include <heddle/sggx/moments.h>
 #include <heddle/sggx/pack.h>
