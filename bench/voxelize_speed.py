@@ -24,7 +24,7 @@ SWEATER = os.path.join(DATA, "yarn/bcc/sweater_flame_ribbing.bcc")
 def voxelize(folder, voxels, fibers, yarn, *more):
     out = os.path.join(folder, "out.vdb")
     command = [HEDDLE, "voxelize", SWEATER, "-o", out, "--yarn", yarn, "--yarn-radius", "0.1",
-               "--fibers", str(fibers), "--voxels", str(voxels), "--json", *more]
+               "--fibers", str(fibers), "--voxels", str(voxels), "--levels", "0", "--json", *more]
     result = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
     os.remove(out)
     return result
