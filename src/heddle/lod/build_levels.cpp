@@ -7,13 +7,11 @@
 #include <heddle/lod/join_pieces.h>
 #include <heddle/lod/upper_levels.h>
 #include <heddle/voxel/block_keeper.h>
-#include <heddle/voxel/z_order.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <mutex>
 #include <set>
 #include <tuple>
