@@ -159,7 +159,7 @@ void reduce_with(Pool& pool, Distance distance) {
     OtherLobes<Distance> lobes(pool, distance);
     LobeMerge merges[kMaxPool];
     const int made = agglomerate(static_cast<int>(pool.size()), kKeep, lobes, merges);
-    pool.resize(static_cast<std::size_t>(compact_lobes(pool, merges, made)));
+    pool.resize(static_cast<std::size_t>(compact_lobes(std::span(pool), merges, made)));
 }
 
 float harmonic(float a, float b) {

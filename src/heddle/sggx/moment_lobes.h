@@ -159,18 +159,17 @@ private:
     float share_[kMaxPool];
 };
 
-/// Moves the lobes that `made` merges left to the front, in their order.
+/// Moves what `made` merges left of the lobes, or of what goes with each, to the front in its order.
 /// @return  how many are left
-HEDDLE_HD inline int
-compact_lobes(std::span<DirectionSums> lobes, const LobeMerge* merges, int made) {
+template <typename T>
+HEDDLE_INLINE int compact_lobes(std::span<T> lobes, const LobeMerge* merges, int made) {
     std::uint64_t gone = 0;
     for (int i = 0; i < made; ++i) gone |= std::uint64_t{1} << merges[i].from;
-    int left = 0;
-    for (int i = 0; i < static_cast<int>(lobes.size()); ++i) {
-        if ((gone >> i & 1) == 0)
-            lobes[static_cast<std::size_t>(left++)] = lobes[static_cast<std::size_t>(i)];
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < lobes.size(); ++i) {
+        if ((gone >> i & 1) == 0) lobes[left++] = lobes[i];
     }
-    return left;
+    return static_cast<int>(left);
 }
 
 /// Reduces pooled lobes to at most `keep` by the method `moments`, and to fewer while two are

@@ -67,20 +67,6 @@ HEDDLE_INLINE std::uint32_t line_up(LobePool& pool, bool with_maps, const MakeLo
     return order.targets;
 }
 
-/// Moves the lobes that `made` merges left to the front, in their order.
-inline void compact(LobePool& pool, const LobeMerge* merges, int made, bool with_maps) {
-    std::uint64_t gone = 0;
-    for (int k = 0; k < made; ++k) gone |= std::uint64_t{1} << merges[k].from;
-    std::size_t left = 0;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(pool.count); ++i) {
-        if ((gone >> i & 1) != 0) continue;
-        pool.sums[left] = pool.sums[i];
-        if (with_maps) pool.maps[left] = pool.maps[i];
-        ++left;
-    }
-    pool.count = static_cast<int>(left);
-}
-
 /// Merges the pool's closest lobes until `keep` are left, at most kMaxLobes, and lines them up.
 /// @param same  distance below which lobes merge even so (agglomerate.h)
 /// @return      as line_up
@@ -97,7 +83,9 @@ reduce(LobePool& pool, int keep, bool with_maps, const MakeLobes& make_lobes, fl
                 add_maps(pool.maps[m.into], pool.maps[m.from]);
             }
         }
-        compact(pool, merges.data(), made, with_maps);
+        const auto count = static_cast<std::size_t>(pool.count);
+        if (with_maps) compact_lobes(std::span(pool.maps).first(count), merges.data(), made);
+        pool.count = compact_lobes(std::span(pool.sums).first(count), merges.data(), made);
     }
     return line_up(pool, with_maps, make_lobes);
 }
