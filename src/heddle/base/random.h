@@ -35,4 +35,19 @@ struct CounterRandom {
     HEDDLE_HD constexpr float uniform() { return to_unit_float(next()); }
 };
 
+/// A fast stream for Monte Carlo: SplitMix64, one round a draw.             [Steele 2014]
+struct StreamRandom {
+    std::uint64_t state = 0;
+
+    HEDDLE_HD constexpr std::uint64_t next() {
+        state += 0x9e3779b97f4a7c15u;
+        std::uint64_t z = state;
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+        return z ^ z >> 31;
+    }
+    /// Uniform in [0, 1).
+    HEDDLE_HD constexpr float uniform() { return to_unit_float(next()); }
+};
+
 } // namespace heddle

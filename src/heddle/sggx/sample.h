@@ -71,9 +71,10 @@ struct SggxFactor {
 /// [Fabre26, 4.1]; only + - * / sqrt.
 ///
 /// @param A       factor(S)
-/// @param random  two draws a try
+/// @param random  with next(): 64 uniform bits; two draws a try
 /// @return        unit
-[[nodiscard]] HEDDLE_HD inline Vec3f sample_ndf(const SggxFactor& A, CounterRandom& random) {
+template <typename Random>
+[[nodiscard]] HEDDLE_HD inline Vec3f sample_ndf(const SggxFactor& A, Random& random) {
     const float sum = A.reach[0] + A.reach[1] + A.reach[2];
     constexpr int kTries = 128; // all fail with probability below 1e-16
     for (int i = 0; i < kTries; ++i) {
@@ -119,8 +120,8 @@ struct SggxFactor {
 /// @param A   factor(S)
 /// @param wi  unit
 /// @return    unit, on wi's side
-[[nodiscard]] HEDDLE_HD inline Vec3f
-sample_vndf(const SggxFactor& A, Vec3f wi, CounterRandom& random) {
+template <typename Random>
+[[nodiscard]] HEDDLE_HD inline Vec3f sample_vndf(const SggxFactor& A, Vec3f wi, Random& random) {
     const Vec3f v =
         normalize(Vec3f{dot(A.column[0], wi), dot(A.column[1], wi), dot(A.column[2], wi)});
     const Vec3f p = any_perpendicular(v);
