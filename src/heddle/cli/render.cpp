@@ -1,0 +1,148 @@
+#include <heddle/base/error.h>
+#include <heddle/base/memory.h>
+#include <heddle/base/random.h>
+#include <heddle/cli/commands.h>
+#include <heddle/cli/load.h>
+#include <heddle/cli/progress_bar.h>
+#include <heddle/cli/report.h>
+#include <heddle/io/input_file.h>
+#include <heddle/stage/render_job.h>
+
+#include <filesystem>
+#include <limits>
+
+namespace heddle::cli {
+namespace {
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+Scene asked_scene(const Arguments& arguments) {
+    const std::string& path = arguments.text("FILE");
+    Scene scene;
+    if (suffix_of(path) == ".vdb") {
+        SceneObject object;
+        object.name = std::filesystem::path(path).stem().string();
+        object.volume = path;
+        object.instances.resize(1);
+        scene.objects.push_back(object);
+    } else {
+        scene = read_scene(path);
+    }
+    if (arguments.given("size")) {
+        const std::vector<double> size = arguments.numbers("size", 'x');
+        scene.width = static_cast<std::int32_t>(size[0]);
+        scene.height = static_cast<std::int32_t>(size[1]);
+    }
+    if (arguments.given("samples")) scene.integrator.samples = arguments.integer("samples");
+    if (arguments.given("level")) {
+        scene.integrator.level = static_cast<int>(arguments.integer("level"));
+    }
+    if (arguments.given("seed")) {
+        scene.integrator.seed = static_cast<std::uint64_t>(arguments.integer("seed"));
+    }
+    if (arguments.given("transport")) scene.integrator.transport = arguments.text("transport");
+    return scene;
+}
+
+/// Names what the picture depends on: the scene's text, its files' sizes and times, the options.
+std::uint64_t hash_of(const Scene& scene, const Arguments& arguments) {
+    std::uint64_t hash = 1;
+    const auto add = [&](const std::string& text) {
+        for (const char c : text) hash = hash64(hash, static_cast<unsigned char>(c));
+    };
+    const auto add_file = [&](const std::string& path) {
+        if (path.empty()) return;
+        std::error_code none;
+        add(path);
+        hash = hash64(hash, std::filesystem::file_size(path, none),
+                      static_cast<std::uint64_t>(
+                          std::filesystem::last_write_time(path, none).time_since_epoch().count()));
+    };
+    add_file(arguments.text("FILE"));
+    for (const SceneObject& object : scene.objects) {
+        add_file(object.volume);
+        add_file(object.geometry);
+    }
+    add(str(arguments.given("geometry"), ' ', scene.integrator.level, ' ', scene.integrator.seed,
+            ' ', scene.integrator.transport, ' ', scene.integrator.max_depth));
+    return hash;
+}
+
+void run_render(const Arguments& arguments, Report& report, ProgressBar& bar) {
+    Scene scene = asked_scene(arguments);
+    RenderJob job;
+    job.output = arguments.text("output");
+    check_output(job.output, suffix_of(job.output) == ".png" ? ".png" : ".exr");
+    job.samples = scene.integrator.samples;
+    job.seconds = arguments.given("time") ? arguments.number("time") : 0.0;
+    job.noise = arguments.given("noise") ? arguments.number("noise") : 0.0;
+    if ((job.seconds > 0.0 || job.noise > 0.0) && !arguments.given("samples")) {
+        job.samples = std::numeric_limits<std::int32_t>::max();
+    }
+    job.exposure = arguments.number("exposure");
+    job.resume = arguments.given("resume");
+    job.scene_hash = hash_of(scene, arguments);
+    job.command = arguments.command_line;
+
+    PathOptions options;
+    options.max_depth = scene.integrator.max_depth;
+    options.roulette_depth = scene.integrator.roulette_depth;
+    options.level = scene.integrator.level;
+    options.level_offset = static_cast<float>(arguments.number("level-offset"));
+    options.transport = transport_from(scene.integrator.transport);
+
+    bar.begin("read", "files", 1);
+    Stage stage(scene, {arguments.given("geometry")}, bar);
+    const RenderOutcome outcome = render_to_file(stage, options, scene.integrator.seed, scene.width,
+                                                 scene.height, job, bar);
+    bar.finish();
+    report.text("output", job.output);
+    report.add("size", "size", {scene.width, scene.height},
+               str(scene.width, " x ", scene.height, " pixels"));
+    report.count("samples", outcome.samples, "per pixel");
+    if (job.resume) report.count("resumed from", outcome.resumed_from, "per pixel");
+    report.number("noise", outcome.noise);
+    const double paths = static_cast<double>(outcome.samples - outcome.resumed_from) * scene.width *
+                         scene.height;
+    report.seconds("first picture", outcome.first_picture_seconds);
+    report.seconds("levels", outcome.load_seconds);
+    report.seconds("render", outcome.render_seconds);
+    if (outcome.render_seconds > 0.0) {
+        report.number("rate", paths / outcome.render_seconds, "paths/s");
+    }
+    report.bytes("scene memory", stage.byte_count());
+    report.bytes("peak memory", peak_resident_bytes());
+}
+
+} // namespace
+
+Command render_command() {
+    return {"render",
+            "a picture of a scene file or a .vdb by path tracing",
+            {
+                {"FILE", "", "", any_text(), "", "a scene in .toml, or a .vdb that is framed and lit",
+                 true},
+                {"-o, --output", "OUT.exr|OUT.png", "", any_text(), "", "where the picture goes", true},
+                {"--geometry", "", "", flag(), "",
+                 "traces the geometry of objects that have some, not their volumes"},
+                {"--level", "N", "(by the footprint of each ray)", integer(0, 1000), "",
+                 "of detail everywhere; 0 = the finest"},
+                {"--level-offset", "X", "0", number(-8, 8), "levels",
+                 "added to what the footprint asks for; below 0 is finer"},
+                {"--transport", "MODEL", "(the scene's, or product)", one_of(transport_names()), "",
+                 "how voxels along a ray are put together"},
+                {"--samples", "N", "(the scene's, or 64)", integer(1, 1'000'000'000), "per pixel",
+                 "stops there"},
+                {"--time", "T", "", positive(), "seconds", "stops after the pass that ends then"},
+                {"--noise", "E", "", positive(), "of the mean luminance",
+                 "stops when the pixels' root mean square error is below it"},
+                {"--size", "WxH", "(the scene's, or 512x512)", numbers(2, 2, 1, 65536, 'x'), "pixels",
+                 "of the picture"},
+                {"--exposure", "E", "0", number(-kInf, kInf), "stops", "of a .png: times 2^E"},
+                {"--resume", "", "", flag(), "",
+                 "goes on from OUTPUT.checkpoint, which a stopped render leaves"},
+            },
+            run_render};
+}
+
+} // namespace heddle::cli

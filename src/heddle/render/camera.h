@@ -1,0 +1,45 @@
+#pragma once
+
+#include <heddle/base/trig.h>
+#include <heddle/geom/bounds.h>
+#include <heddle/render/ray.h>
+
+#include <array>
+#include <cstdint>
+
+namespace heddle {
+
+/// Where a picture is taken from.
+struct CameraView {
+    bool orthographic = false;
+    Vec3d eye{0, 0, 10};
+    Vec3d target{};
+    Vec3d up{0, 1, 0};
+    double view_angle = 0.6;     ///< perspective: radians across the picture's height, in (0, pi)
+    double view_height = 1.0;    ///< orthographic: the picture's height, scene units
+    double lens_radius = 0.0;    ///< 0: everything is sharp
+    double focus_distance = 0.0; ///< along the view; 0: the target's
+};
+
+/// A pinhole, thin-lens or parallel camera.
+class Camera {
+public:
+    /// @param width, height  px
+    Camera(const CameraView& view, std::int32_t width, std::int32_t height);
+
+    /// @param x, y  px from the upper left corner
+    /// @param lens  two numbers in [0, 1)
+    /// @return      with width and spread of one pixel
+    [[nodiscard]] Ray ray(float x, float y, std::array<float, 2> lens) const;
+
+private:
+    CameraView view_;
+    Vec3d forward_, right_, down_; ///< right_ and down_: one pixel at distance 1, or one pixel
+    double center_x_, center_y_;
+};
+
+/// A camera that sees all of a box from a direction.
+/// @param from  towards the camera, any length > 0
+[[nodiscard]] CameraView frame(const Bounds& box, Vec3d from, Vec3d up, double aspect);
+
+} // namespace heddle

@@ -1,0 +1,174 @@
+#include <heddle/render/path.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace heddle {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+float largest(Vec3f c) {
+    return std::max({c.x, c.y, c.z});
+}
+
+/// Share of a technique of density p beside one of density q.       [Veach 1997, power heuristic]
+float power_share(float p, float q) {
+    if (!(p > 0.0f)) return 0.0f;
+    const float r = q / p;
+    return 1.0f / (1.0f + r * r);
+}
+
+/// Where a path scatters next.
+struct Event {
+    float t = kInfinity;
+    Scatterer scatterer;
+    std::uint32_t material = 0;
+    float level = 0.0f;
+    Vec3f normal{}; ///< geometric; zero in a volume
+    float offset = 0.0f;
+};
+
+class PathTracer {
+public:
+    PathTracer(const PathScene& scene, const PathOptions& options, PathSampler& sampler)
+        : scene_(scene), options_(options), sampler_(sampler) {
+        choice_ = {options.level, options.level_offset, sampler.stream().uniform()};
+    }
+
+    PathSample trace(Ray ray) {
+        PathSample out;
+        if (options_.with_transmittance) out.transmittance = transmittance(ray);
+        Vec3f throughput{1, 1, 1};
+        float scatter_pdf = 0.0f; // of the ray's direction; 0: from the camera
+        for (int depth = 0;; ++depth) {
+            Event event;
+            const bool scatters = next_event(ray, event);
+            if (LightHit hit; meets_light(ray, event.t, scatters, hit)) {
+                const float share = depth == 0 ? 1.0f : power_share(scatter_pdf, hit.pdf);
+                out.radiance = out.radiance + throughput * hit.radiance * share;
+                if (hit.t < event.t || !scatters) break;
+            }
+            if (!scatters) break;
+            if (depth == 0) note_first(event, out.first);
+            if (depth >= options_.max_depth) break;
+            const Vec3d at = ray.at(static_cast<double>(event.t));
+            const float width = ray.width_at(event.t);
+            const Vec3f wi = ray.direction * -1.0f;
+            out.radiance = out.radiance + throughput * direct_light(event, at, wi, width);
+            const ScatterSample next = sample(event.scatterer, wi, sampler_.three());
+            if (!(next.pdf > 0.0f)) break;
+            throughput = throughput * next.weight;
+            if (!survives(throughput, depth)) break;
+            scatter_pdf = next.pdf;
+            ray = leave(event, at, next.direction, width, spread_of(next.roughness, ray.spread));
+        }
+        return out;
+    }
+
+private:
+    /// Footprints of scattered rays widen by this per unit of distance where scattering is diffuse: a
+    /// tenth of a hemisphere's, so that light from near voxels is still taken from fine ones.
+    static constexpr float kDiffuseSpread = 0.2f;
+    [[nodiscard]] static float spread_of(float roughness, float spread) {
+        return std::max(spread, kDiffuseSpread * roughness);
+    }
+
+    [[nodiscard]] bool next_event(const Ray& ray, Event& event) {
+        bool found = false;
+        Ray open = ray;
+        if (SurfaceHit hit; scene_.surfaces && scene_.surfaces->intersect(ray, hit)) {
+            event = {hit.t, hit.scatterer, hit.material, 0.0f, hit.normal, hit.offset};
+            open.t_max = hit.t;
+            found = true;
+        }
+        const Volume* stopped_in = nullptr;
+        VolumeHit nearest;
+        for (const Volume& volume : scene_.volumes) {
+            VolumeHit hit;
+            if (!volume.sample_flight(open, options_.transport, choice_, sampler_.stream(), hit))
+                continue;
+            open.t_max = hit.t;
+            nearest = hit;
+            stopped_in = &volume;
+        }
+        if (stopped_in == nullptr) return found;
+        event.t = nearest.t;
+        event.scatterer = stopped_in->scatterer(nearest, ray.direction * -1.0f, scene_.materials,
+                                                sampler_.stream(), event.material);
+        event.level = static_cast<float>(nearest.level);
+        event.normal = {};
+        event.offset = 0.0f;
+        return true;
+    }
+
+    /// An area light in front of the event, or the background behind everything.
+    [[nodiscard]] bool meets_light(const Ray& ray, float t, bool scatters, LightHit& hit) const {
+        Ray until = ray;
+        until.t_max = std::min(ray.t_max, t);
+        if (scene_.lights.intersect(until, hit)) return true;
+        if (scatters) return false;
+        hit = scene_.lights.background(ray.direction);
+        return largest(hit.radiance) > 0.0f;
+    }
+
+    /// A ray that starts at an event, clear of the surface it stands on.
+    [[nodiscard]] static Ray
+    leave(const Event& event, Vec3d at, Vec3f direction, float width, float spread) {
+        const float side = dot(direction, event.normal) < 0.0f ? -event.offset : event.offset;
+        return {at + to_double(event.normal * side), direction, kInfinity, width, spread};
+    }
+
+    [[nodiscard]] Vec3f direct_light(const Event& event, Vec3d at, Vec3f wi, float width) {
+        const LightSample light = scene_.lights.sample(at, sampler_.three());
+        if (!(largest(light.radiance) > 0.0f)) return {};
+        const Vec3f scattered = evaluate(event.scatterer, wi, light.direction) * light.radiance;
+        if (!(largest(scattered) > 0.0f)) return {};
+        const float share = light.pdf > 0.0f
+                                ? power_share(light.pdf, pdf(event.scatterer, wi, light.direction))
+                                : 1.0f;
+        Ray shadow = leave(event, at, light.direction, width, spread_of(1.0f, 0.0f));
+        shadow.t_max = light.distance < kInfinity ? light.distance * 0.9999f : kInfinity;
+        return scattered * (share * transmittance(shadow));
+    }
+
+    [[nodiscard]] float transmittance(const Ray& ray) {
+        if (scene_.surfaces && scene_.surfaces->occluded(ray)) return 0.0f;
+        float passes = 1.0f;
+        for (const Volume& volume : scene_.volumes) {
+            passes *= volume.transmittance(ray, options_.transport, choice_, sampler_.stream());
+            if (passes == 0.0f) break;
+        }
+        return passes;
+    }
+
+    [[nodiscard]] bool survives(Vec3f& throughput, int depth) {
+        const float most = largest(throughput);
+        if (!(most > 0.0f) || !std::isfinite(most)) return false;
+        if (depth + 1 < options_.roulette_depth) return true;
+        const float keep = std::min(0.95f, most);
+        if (sampler_.stream().uniform() >= keep) return false;
+        throughput = throughput * (1.0f / keep);
+        return true;
+    }
+
+    static void note_first(const Event& event, FirstHit& first) {
+        first = {true,        event.t,       event.scatterer.axis, event.scatterer.material.albedo,
+                 event.level, event.material};
+    }
+
+    const PathScene& scene_;
+    const PathOptions& options_;
+    PathSampler& sampler_;
+    LevelChoice choice_;
+};
+
+} // namespace
+
+PathSample
+trace_path(const PathScene& scene, const PathOptions& options, Ray ray, PathSampler& sampler) {
+    return PathTracer(scene, options, sampler).trace(ray);
+}
+
+} // namespace heddle

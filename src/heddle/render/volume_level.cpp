@@ -1,0 +1,159 @@
+#include <heddle/render/volume_level.h>
+
+#include <heddle/base/error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace heddle {
+namespace {
+
+/// VolumeVoxel::depth by coverage, capped as `density` is: -ln(1 - c), c <= 1 - 1 / (2 columns).
+std::vector<std::uint16_t> depth_table(const Lattice& lattice) {
+    const double columns = static_cast<double>(lattice.subvoxels) * lattice.subvoxels;
+    const double cap = 1.0 - 0.5 / columns;
+    std::vector<std::uint16_t> table(65536);
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        const double depth = -std::log1p(-std::min(static_cast<double>(i) / 65535.0, cap));
+        table[i] = static_cast<std::uint16_t>(
+            std::min(std::round(depth / static_cast<double>(kDepthUnit)), 65535.0));
+    }
+    return table;
+}
+
+template <typename T>
+void append_to(std::vector<T>& to, const std::vector<T>& from) {
+    to.insert(to.end(), from.begin(), from.end());
+}
+
+template <typename T>
+std::int64_t bytes_of(const std::vector<T>& v) {
+    return static_cast<std::int64_t>(v.capacity() * sizeof(T));
+}
+
+} // namespace
+
+VolumeLevel::VolumeLevel(const VoxelSource& source) : info_(source.info()) {
+    const std::vector<std::uint16_t> table = depth_table(info_.lattice);
+    voxels_.reserve(static_cast<std::size_t>(info_.voxel_count));
+    lobes_.reserve(static_cast<std::size_t>(info_.lobe_count));
+    VoxelBlock scratch;
+    for (std::size_t b = 0; b < source.block_count(); ++b) append(source.block(b, scratch), table);
+    if (leaves_.size() >= std::size_t{1} << 31) {
+        throw Error(ErrorCode::InvalidArgument,
+                    str("level ", info_.level, " has ", leaves_.size(), " leaves (limit 2^31 - 1)"),
+                    "use a larger voxel size");
+    }
+    std::vector<Vec3i> origins = std::move(origins_);
+    sort_leaves(origins);
+    build_tiles(origins);
+}
+
+void VolumeLevel::append(const VoxelBlock& block,
+                         const std::vector<std::uint16_t>& depth_of_coverage) {
+    const std::size_t first_voxel = voxels_.size();
+    const std::size_t first_lobe = lobes_.size();
+    for (const VoxelLeaf& from : block.leaves) {
+        VolumeLeaf& leaf = leaves_.emplace_back();
+        origins_.push_back(from.origin);
+        leaf.first_voxel = first_voxel + from.first_voxel;
+        leaf.first_lobe = first_lobe + from.first_lobe;
+        leaf.active = from.active;
+        std::uint16_t count = 0;
+        for (std::size_t x = 0; x < 8; ++x) {
+            leaf.before[x] = count;
+            count = static_cast<std::uint16_t>(count + std::popcount(from.active[x]));
+        }
+        std::uint32_t lobe = 0;
+        for (std::size_t v = from.first_voxel; v < from.first_voxel + std::size_t{count}; ++v) {
+            const Coverage& c = block.coverage[v];
+            const std::uint32_t lobes = block.lobe_count[v];
+            voxels_.push_back(
+                {{depth_of_coverage[c.x], depth_of_coverage[c.y], depth_of_coverage[c.z]},
+                 static_cast<std::uint16_t>(lobe | (lobes - 1) << 12)});
+            lobe += lobes;
+        }
+    }
+    append_to(lobes_, block.lobes);
+    append_to(maps_, block.maps);
+    append_to(tangents_, block.tangents);
+    append_to(footprints_, block.footprints);
+    append_to(correlation_, block.correlation);
+}
+
+/// Orders leaves by tile, and within a tile by the bits of its mask.
+void VolumeLevel::sort_leaves(std::vector<Vec3i>& origins) {
+    std::vector<std::uint32_t> order(leaves_.size());
+    std::iota(order.begin(), order.end(), 0u);
+    const auto key = [&](std::uint32_t i) {
+        const Vec3i o = origins[i];
+        return std::array<std::int32_t, 6>{o.x >> 6,     o.y >> 6,     o.z >> 6,
+                                           o.x >> 3 & 7, o.y >> 3 & 7, o.z >> 3 & 7};
+    };
+    std::sort(order.begin(), order.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+    std::vector<VolumeLeaf> leaves(leaves_.size());
+    std::vector<Vec3i> sorted(leaves_.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        leaves[i] = leaves_[order[i]];
+        sorted[i] = origins[order[i]];
+    }
+    leaves_ = std::move(leaves);
+    origins = std::move(sorted);
+}
+
+void VolumeLevel::grow_bounds(Vec3i origin, const VolumeLeaf& leaf) {
+    std::uint64_t any = 0; // bit y * 8 + z
+    for (std::int32_t x = 0; x < 8; ++x) {
+        const std::uint64_t word = leaf.active[static_cast<std::size_t>(x)];
+        if (word == 0) continue;
+        lo_.x = std::min(lo_.x, origin.x + x);
+        hi_.x = std::max(hi_.x, origin.x + x + 1);
+        any |= word;
+    }
+    for (std::int32_t bit = 0; bit < 64; ++bit) {
+        if ((any >> bit & 1) == 0) continue;
+        lo_.y = std::min(lo_.y, origin.y + (bit >> 3));
+        hi_.y = std::max(hi_.y, origin.y + (bit >> 3) + 1);
+        lo_.z = std::min(lo_.z, origin.z + (bit & 7));
+        hi_.z = std::max(hi_.z, origin.z + (bit & 7) + 1);
+    }
+}
+
+void VolumeLevel::build_tiles(const std::vector<Vec3i>& origins) {
+    lo_ = {INT32_MAX, INT32_MAX, INT32_MAX};
+    hi_ = {INT32_MIN, INT32_MIN, INT32_MIN};
+    for (std::size_t i = 0; i < origins.size(); ++i) {
+        const Vec3i o = origins[i];
+        grow_bounds(o, leaves_[i]);
+        const Vec3i t{o.x >> 6, o.y >> 6, o.z >> 6};
+        if (tiles_.empty() || !(tiles_.back().origin == t)) {
+            tiles_.push_back({t, static_cast<std::uint32_t>(i), {}, {}});
+        }
+        Tile& tile = tiles_.back();
+        tile.active[static_cast<std::size_t>(o.x >> 3 & 7)] |=
+            std::uint64_t{1} << ((o.y >> 3 & 7) * 8 + (o.z >> 3 & 7));
+    }
+    if (origins.empty()) lo_ = hi_ = {};
+    slots_.assign(std::bit_ceil(2 * tiles_.size() + 1), kNone);
+    const std::size_t mask = slots_.size() - 1;
+    for (std::size_t n = 0; n < tiles_.size(); ++n) {
+        std::uint16_t count = 0;
+        for (std::size_t x = 0; x < 8; ++x) {
+            tiles_[n].before[x] = count;
+            count = static_cast<std::uint16_t>(count + std::popcount(tiles_[n].active[x]));
+        }
+        std::size_t i = hash(tiles_[n].origin) & mask;
+        while (slots_[i] != kNone) i = (i + 1) & mask;
+        slots_[i] = static_cast<std::uint32_t>(n);
+    }
+}
+
+std::int64_t VolumeLevel::byte_count() const {
+    return bytes_of(slots_) + bytes_of(tiles_) + bytes_of(leaves_) + bytes_of(voxels_) +
+           bytes_of(lobes_) + bytes_of(maps_) + bytes_of(tangents_) + bytes_of(footprints_) +
+           bytes_of(correlation_);
+}
+
+} // namespace heddle

@@ -1,0 +1,215 @@
+#include <heddle/stage/stage.h>
+
+#include <heddle/base/error.h>
+#include <heddle/io/vdb/read_vdb.h>
+#include <heddle/render/embree/embree_scene.h>
+#include <heddle/scatter/scatter_material.h>
+#include <heddle/scene/load_object.h>
+#include <heddle/stage/load_lights.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace heddle {
+namespace {
+
+/// Levels of up to so many voxels are read at once: they are there before a picture could be missed.
+constexpr std::int64_t kCoarseVoxels = 400'000;
+
+bool is_traced(const SceneObject& object, const StageOptions& options) {
+    const bool explicit_too = !object.geometry.empty() || object.generate.has_value();
+    return object.volume.empty() || (options.geometry && explicit_too);
+}
+
+/// Largest factor by which a transform lengthens.
+double scale_of(const Affine& a) {
+    return std::max({length(a.x), length(a.y), length(a.z)});
+}
+
+/// Least distance from a point to a box.
+double distance_to(const Bounds& box, Vec3d p) {
+    Vec3d away{};
+    for (int a = 0; a < 3; ++a) away[a] = std::max({box.lo[a] - p[a], p[a] - box.hi[a], 0.0});
+    return length(away);
+}
+
+} // namespace
+
+Stage::Stage(const Scene& scene, const StageOptions& options, Progress& progress)
+    : width_(scene.width), height_(scene.height) {
+    for (const SceneObject& object : scene.objects) {
+        if (!is_traced(object, options)) open_volume(object, scene);
+    }
+    trace_geometry(scene, options, progress);
+    for (OpenVolume& volume : open_) { // the coarse levels: bounds, and a first picture
+        volume.next = static_cast<int>(volume.pyramid.size()) - 1;
+    }
+    for (bool more = true; more;) {
+        more = false;
+        for (OpenVolume& v : open_) {
+            const auto level = static_cast<std::size_t>(std::max(v.next, 0));
+            if (v.next < 0 || (v.pyramid[v.pyramid.size() - 1] && v.voxels[level] > kCoarseVoxels)) {
+                continue;
+            }
+            v.pyramid[level] = std::make_shared<VolumeLevel>(*read_vdb(v.path, v.next));
+            --v.next;
+            more = true;
+        }
+    }
+    rebuild_volumes();
+    place_camera(scene);
+    choose_levels(scene);
+    const Bounds box = bounds();
+    scene_.lights = LightSet(load_lights(scene, view_.up), 0.5 * length(box.size()));
+}
+
+void Stage::open_volume(const SceneObject& object, const Scene& scene) {
+    const std::vector<VoxelGridInfo> infos = read_infos(object.volume);
+    const int count = static_cast<int>(infos.size());
+    if (scene.integrator.level >= count) {
+        throw Error(ErrorCode::BadFile,
+                    str("has no level ", scene.integrator.level, " (levels 0 to ", count - 1, ")"),
+                    "give a level that it has", {.path = object.volume});
+    }
+    OpenVolume volume;
+    volume.path = object.volume;
+    volume.pyramid.resize(infos.size());
+    for (const VoxelGridInfo& info : infos) volume.voxels.push_back(info.voxel_count);
+    const Vec3d h = infos.front().lattice.voxel_size;
+    volume.voxel_size = std::max({h.x, h.y, h.z});
+    volume.instances = object.instances;
+    for (const Material& material : infos.front().materials) {
+        volume.materials.push_back(material_of(scene, object, material));
+    }
+    if (infos.front().voxel_count == 0) return; // nothing to see in it
+    open_.push_back(std::move(volume));
+}
+
+std::uint32_t Stage::material_of(const Scene& scene,
+                                 const SceneObject& object,
+                                 const Material& material) {
+    std::string name = object.name + "/" + material.name;
+    ScatterMaterial scatter = scatter_material_of(material);
+    for (const std::string& key : {material.name, std::string("*")}) {
+        const auto named = object.materials.find(key);
+        if (named == object.materials.end()) continue;
+        name = named->second;
+        scatter = scene.materials.at(name);
+        break;
+    }
+    const auto at = std::find(names_.begin(), names_.end(), name);
+    if (at != names_.end()) return static_cast<std::uint32_t>(at - names_.begin());
+    names_.push_back(name);
+    scene_.materials.push_back(scatter);
+    return static_cast<std::uint32_t>(names_.size() - 1);
+}
+
+void Stage::trace_geometry(const Scene& scene, const StageOptions& options, Progress& progress) {
+    std::vector<TracedObject> traced;
+    for (const SceneObject& object : scene.objects) {
+        if (!is_traced(object, options)) continue;
+        auto geometry = std::make_shared<Geometry>(load_object_geometry(object));
+        TracedObject out;
+        out.instances = object.instances;
+        for (const Material& material : geometry->materials) {
+            out.materials.push_back(material_of(scene, object, material));
+        }
+        out.geometry = std::move(geometry);
+        traced.push_back(std::move(out));
+    }
+    if (traced.empty()) return;
+    auto surfaces = build_embree_scene(traced, scene_.materials, progress);
+    surface_bounds_ = surfaces->bounds();
+    scene_.surfaces = std::move(surfaces);
+}
+
+void Stage::rebuild_volumes() {
+    scene_.volumes.clear();
+    for (const OpenVolume& volume : open_) {
+        for (const Affine& instance : volume.instances) {
+            scene_.volumes.emplace_back(volume.pyramid, instance, volume.materials);
+        }
+    }
+}
+
+Bounds Stage::bounds() const {
+    Bounds box = surface_bounds_;
+    for (const Volume& volume : scene_.volumes) {
+        if (!volume.bounds().empty()) box.grow(volume.bounds());
+    }
+    return box;
+}
+
+void Stage::place_camera(const Scene& scene) {
+    if (scene.camera) {
+        const SceneCamera& from = *scene.camera;
+        view_.orthographic = from.kind == SceneCamera::Kind::Orthographic;
+        view_.eye = from.eye;
+        view_.target = from.target;
+        view_.up = from.up;
+        view_.view_angle = from.view_angle_deg * std::numbers::pi / 180.0;
+        view_.view_height = from.view_height;
+        view_.lens_radius = from.lens_radius;
+        view_.focus_distance = from.focus_distance;
+    } else { // three quarters from the front, from above; flat things are looked at from above
+        const Vec3d size = bounds().size();
+        const bool flat = size.z < 0.5 * std::min(size.x, size.y);
+        view_ = flat ? frame(bounds(), {0.25, -0.8, 1.0}, {0, 1, 0},
+                             static_cast<double>(width_) / height_)
+                     : frame(bounds(), {0.5, 0.35, 1.0}, {0, 1, 0},
+                             static_cast<double>(width_) / height_);
+    }
+    camera_ = std::make_unique<Camera>(view_, width_, height_);
+}
+
+/// No ray asks for a level finer than that of the narrowest footprint on the object's box.
+void Stage::choose_levels(const Scene& scene) {
+    const Ray middle = camera_->ray(0.5f * static_cast<float>(width_),
+                                    0.5f * static_cast<float>(height_), {0.5f, 0.5f});
+    std::size_t at = 0;
+    for (OpenVolume& volume : open_) {
+        const int last = static_cast<int>(volume.pyramid.size()) - 1;
+        volume.finest_wanted = last;
+        for (const Affine& instance : volume.instances) {
+            const Volume& placed = scene_.volumes[at++];
+            const double away = distance_to(placed.bounds(), view_.eye);
+            // towards the picture's edge a pixel is narrower by the cosine, in width and in distance
+            const double half = 0.5 * view_.view_angle;
+            const double edge = view_.orthographic ? 1.0 : std::pow(std::cos(half), 2.0) * 0.5;
+            const double width = static_cast<double>(middle.width) +
+                                 static_cast<double>(middle.spread) * away * edge;
+            const double voxel = volume.voxel_size * scale_of(instance);
+            const int needed = width > 0.0 ? static_cast<int>(std::floor(std::log2(width / voxel))) : 0;
+            volume.finest_wanted = std::clamp(needed, 0, volume.finest_wanted);
+        }
+        if (scene.integrator.level >= 0) {
+            volume.finest_wanted = scene.integrator.level;
+        }
+    }
+}
+
+bool Stage::load_next_level() {
+    OpenVolume* coarsest = nullptr;
+    for (OpenVolume& v : open_) {
+        if (v.next < v.finest_wanted) continue;
+        if (coarsest == nullptr || v.next > coarsest->next) coarsest = &v;
+    }
+    if (coarsest == nullptr) return false;
+    auto& slot = coarsest->pyramid[static_cast<std::size_t>(coarsest->next)];
+    slot = std::make_shared<VolumeLevel>(*read_vdb(coarsest->path, coarsest->next));
+    --coarsest->next;
+    rebuild_volumes();
+    return true;
+}
+
+std::int64_t Stage::byte_count() const {
+    std::int64_t sum = scene_.surfaces ? scene_.surfaces->byte_count() : 0;
+    for (const OpenVolume& volume : open_) {
+        for (const auto& level : volume.pyramid) sum += level ? level->byte_count() : 0;
+    }
+    return sum;
+}
+
+} // namespace heddle

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <heddle/base/progress.h>
+#include <heddle/geom/bounds.h>
+#include <heddle/render/camera.h>
+#include <heddle/render/path.h>
+#include <heddle/scene/scene.h>
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace heddle {
+
+struct StageOptions {
+    bool geometry = false; ///< objects that have explicit geometry are traced, not their volumes
+};
+
+/// A scene made ready: geometry loaded, lights and camera placed, volumes open with their coarse
+/// levels read. Finer levels come one at a time, and only those that the camera can ask for.
+class Stage {
+public:
+    /// @throws Error  as the readers; BadFile: a level that does not exist, an object that has nothing
+    ///                to show
+    Stage(const Scene& scene, const StageOptions& options, Progress& progress);
+
+    /// Reads the next finer level of a volume, coarsest first. @return false: all that is needed is there
+    bool load_next_level();
+
+    [[nodiscard]] const PathScene& scene() const { return scene_; }
+    [[nodiscard]] const Camera& camera() const { return *camera_; }
+    [[nodiscard]] const CameraView& view() const { return view_; }
+    [[nodiscard]] Bounds bounds() const;
+    [[nodiscard]] std::int64_t byte_count() const; ///< of levels and geometry
+    /// Names of PathScene::materials.
+    [[nodiscard]] const std::vector<std::string>& material_names() const { return names_; }
+
+private:
+    /// A .vdb and where it stands.
+    struct OpenVolume {
+        std::string path;
+        VolumePyramid pyramid;
+        std::vector<std::int64_t> voxels; ///< per level
+        double voxel_size = 0.0;          ///< longest edge of level 0, object units
+        std::vector<Affine> instances;
+        std::vector<std::uint32_t> materials;
+        int finest_wanted = 0;
+        int next = 0; ///< level to be read next
+    };
+    void open_volume(const SceneObject& object, const Scene& scene);
+    void trace_geometry(const Scene& scene, const StageOptions& options, Progress& progress);
+    void place_camera(const Scene& scene);
+    void choose_levels(const Scene& scene);
+    void rebuild_volumes();
+    [[nodiscard]] std::uint32_t material_of(const Scene& scene,
+                                            const SceneObject& object,
+                                            const Material& material);
+
+    PathScene scene_;
+    std::vector<OpenVolume> open_;
+    std::vector<std::string> names_;
+    Bounds surface_bounds_;
+    CameraView view_;
+    std::unique_ptr<Camera> camera_;
+    std::int32_t width_ = 0, height_ = 0;
+};
+
+} // namespace heddle
