@@ -70,8 +70,19 @@ struct ScatterSample {
 /// Density with which `sample` draws `wo`, per steradian.
 [[nodiscard]] float pdf(const Scatterer& at, Vec3f wi, Vec3f wo);
 
+/// What `evaluate` and `pdf` say of one pair of directions.
+struct ScatterValue {
+    Vec3f value;      ///< of `evaluate`
+    float pdf = 0.0f; ///< of `pdf`
+};
+
+/// Both at once, for the price of one: what a light's sample needs.
+[[nodiscard]] ScatterValue evaluate_with_pdf(const Scatterer& at, Vec3f wi, Vec3f wo);
+
 /// Draws a direction.
 /// @param u  three uniform numbers in [0, 1)
+/// @return   `roughness` is 1 / sqrt(pi pdf), at most 1: the radius of a disc that holds all of such a
+///           density, the same measure for every model; weight and pdf 0 where the draw was absorbed
 [[nodiscard]] ScatterSample sample(const Scatterer& at, Vec3f wi, Vec3f u);
 
 } // namespace heddle

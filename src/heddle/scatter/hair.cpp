@@ -1,0 +1,216 @@
+#include <heddle/scatter/azimuthal.h>
+#include <heddle/scatter/fiber_frame.h>
+#include <heddle/scatter/longitudinal.h>
+#include <heddle/scatter/models.h>
+
+#include <heddle/base/random.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace heddle::detail {
+namespace {
+
+constexpr int kPaths = 3; ///< R, TT, TRT; what is left after them is even in azimuth
+constexpr int kCells = 8; ///< of a fiber's half width, even in the angle of its normal to the light
+/// sin(k pi / 16): the cells' edges
+constexpr float kEdge[kCells + 1] = {0.0f,        0.19509032f, 0.38268343f,
+                                     0.55557023f, 0.70710678f, 0.83146961f,
+                                     0.92387953f, 0.98078528f, 1.0f};
+/// sin((k + 1/2) pi / 16): their middles; the cosines are the same backwards
+constexpr float kMiddle[kCells] = {0.09801714f, 0.29028468f, 0.47139674f, 0.63439328f,
+                                   0.77301045f, 0.88192126f, 0.95694034f, 0.99518473f};
+/// Tilt of the lobes in multiples of the scales': light's cone is turned by these [Marschner 2003].
+/// R leans to the root, the others to the tip.
+constexpr float kTilt[kPaths + 1] = {2.0f, -1.0f, -4.0f, 0.0f};
+
+/// Unpolarized reflectance from outside.
+/// @param c    cosine of incidence, [0, 1]
+/// @param eta  > 1
+float fresnel(float c, float eta) {
+    const float t = std::sqrt(1.0f - (1.0f - c * c) / (eta * eta));
+    const float p = (eta * c - t) / (eta * c + t);
+    const float s = (c - eta * t) / (c + eta * t);
+    return 0.5f * (p * p + s * s);
+}
+
+float power_of_20(float x) {
+    const float x4 = x * x * x * x;
+    return x4 * x4 * x4 * x4 * x4;
+}
+
+float clamp(float x, float low, float high) {
+    return std::min(high, std::max(low, x));
+}
+
+/// Longitudinal variance of R; TT has a quarter, TRT four times it.        [Chiang16, eq. 7]
+float variance_of(float width_m) {
+    const float w = clamp(width_m, 0.0f, 1.0f);
+    const float root = 0.726f * w + 0.812f * w * w + 3.7f * power_of_20(w);
+    return std::max(4.0f * kMinVariance, root * root);
+}
+
+/// Scale of the azimuth's logistic.                                        [Chiang16, eq. 8]
+float scale_of(float width_n) {
+    const float w = clamp(width_n, 0.05f, 1.0f);
+    return 0.626657069f * (0.265f * w + 1.194f * w * w + 5.372f * power_of_20(w) * w * w);
+}
+
+struct Rgba {
+    float c[4]; ///< red, green, blue, and the mean of them: what paths are chosen by
+};
+
+/// What leaves a fiber for one direction of incidence: everything that does not depend on wo.
+struct HairLobes {
+    FiberFrame frame;
+    CircleLogistic azimuth;
+    float v[kPaths + 1];
+    Inclination in[kPaths + 1];
+    float phi[kPaths][kCells + 1]; ///< exit azimuth at the cells' edges
+    Rgba energy[kPaths][kCells]{}; ///< of both halves' cells
+    Rgba rest{};                   ///< of the paths beyond TRT
+    float total = 0.0f;            ///< of the last channel of all
+
+    HairLobes(const ScatterMaterial& m, Vec3f axis, Vec3f wi)
+        : frame(axis, wi), azimuth(scale_of(m.width_n)) {
+        const float r = variance_of(m.width_m);
+        v[0] = r;
+        v[1] = 0.25f * r;
+        v[2] = v[3] = 4.0f * r;
+        for (int p = 0; p <= kPaths; ++p) {
+            const float a = kTilt[p] * m.tilt;
+            in[p] = turn(frame.in, std::sin(a), std::cos(a));
+        }
+        const float eta = std::max(1.01f, m.eta);
+        const float sine = clamp(frame.in.sin, -1.0f, 1.0f);
+        const float cosine = std::max(1e-4f, frame.in.cos);
+        // the cross-section refracts as if by this [Marschner 2003]
+        const float eta_across = std::sqrt(std::max(1.0f, eta * eta - sine * sine)) / cosine;
+        set_azimuths(eta_across);
+        set_energies(m.absorption, eta, eta_across, sine, cosine);
+    }
+
+    void set_azimuths(float eta_across) {
+        constexpr float kStep = kPi / (2 * kCells);
+        for (int k = 0; k <= kCells; ++k) {
+            const float out = kStep * static_cast<float>(k);
+            const float inside = 0.5f * kPi - acos_approx(kEdge[k] / eta_across);
+            phi[0][k] = -2.0f * out;
+            phi[1][k] = 2.0f * inside - 2.0f * out + kPi;
+            phi[2][k] = 4.0f * inside - 2.0f * out + kTwoPi;
+        }
+    }
+
+    /// [Chiang16, eq. 10 to 13]: f, (1-f)^2 T, (1-f)^2 f T^2, and the geometric series of the rest
+    void set_energies(Vec3f absorption, float eta, float eta_across, float sine, float cosine) {
+        const float cosine_inside = std::sqrt(1.0f - sine * sine / (eta * eta));
+        for (int k = 0; k < kCells; ++k) {
+            const float width = kEdge[k + 1] - kEdge[k];
+            const float f = fresnel(std::min(1.0f, cosine * kMiddle[kCells - 1 - k]), eta);
+            const float h = kMiddle[k] / eta_across;
+            const float path = -2.0f * std::sqrt(1.0f - h * h) / cosine_inside;
+            Rgba sum[kPaths + 1]{};
+            for (int c = 0; c < 3; ++c) {
+                const float T = exp_approx(std::max(0.0f, absorption[c]) * path);
+                const float tt = width * (1.0f - f) * (1.0f - f) * T;
+                const float a[kPaths + 1] = {width * f, tt, tt * f * T,
+                                             tt * f * f * T * T / std::max(1e-6f, 1.0f - f * T)};
+                for (int p = 0; p <= kPaths; ++p) {
+                    sum[p].c[c] = a[p];
+                    sum[p].c[3] += a[p] * (1.0f / 3.0f);
+                }
+            }
+            for (int p = 0; p < kPaths; ++p) energy[p][k] = sum[p];
+            for (int c = 0; c < 4; ++c) rest.c[c] += sum[kPaths].c[c];
+            for (int p = 0; p <= kPaths; ++p) total += sum[p].c[3];
+        }
+    }
+
+    /// Density in azimuth of what leaves through cell k of path p, mean of the two halves: the
+    /// logistic averaged over the azimuths between the cell's edges.
+    void spread_over_cells(int p, float at, float (&density)[kCells]) const {
+        float both[kCells + 1];
+        for (int k = 0; k <= kCells; ++k) {
+            both[k] = azimuth.cumulative(at - phi[p][k]) - azimuth.cumulative(at + phi[p][k]);
+        }
+        for (int k = 0; k < kCells; ++k) {
+            const float gap = phi[p][k + 1] - phi[p][k];
+            density[k] = 0.5f * (both[k] - both[k + 1]) / gap;
+        }
+        // where the exit azimuth turns back (a caustic of TRT) a cell has no width
+        const float least = 0.02f * azimuth.scale();
+        for (int k = 0; k < kCells; ++k) {
+            if (std::fabs(phi[p][k + 1] - phi[p][k]) >= least) continue;
+            const float middle = 0.5f * (phi[p][k] + phi[p][k + 1]);
+            density[k] = 0.5f * (azimuth.density(at - middle) + azimuth.density(at + middle));
+        }
+    }
+
+    [[nodiscard]] ScatterValue value(Vec3f wo) const {
+        const Vec3f w = frame.local(wo);
+        const Inclination out{w.z, std::sqrt(w.x * w.x + w.y * w.y)};
+        const float at = std::atan2(w.y, w.x);
+        const float even = longitudinal(in[kPaths], out, v[kPaths]) * (0.5f * kInversePi);
+        float sum[4];
+        for (int c = 0; c < 4; ++c) sum[c] = rest.c[c] * even;
+        for (int p = 0; p < kPaths; ++p) {
+            float density[kCells];
+            spread_over_cells(p, at, density);
+            const float along = longitudinal(in[p], out, v[p]);
+            for (int k = 0; k < kCells; ++k) {
+                const float d = along * std::max(0.0f, density[k]);
+                for (int c = 0; c < 4; ++c) sum[c] += energy[p][k].c[c] * d;
+            }
+        }
+        if (!(total > 0.0f)) return {};
+        return {{sum[0], sum[1], sum[2]}, sum[3] / total};
+    }
+};
+
+/// A path, a cell of it, and what the uniform number that chose them leaves.
+struct Choice {
+    int path = kPaths;
+    int cell = 0;
+    float left = 0.5f;
+};
+
+Choice choose(const HairLobes& lobes, float u) {
+    float at = u * lobes.total;
+    for (int p = 0; p < kPaths; ++p) {
+        for (int k = 0; k < kCells; ++k) {
+            const float e = lobes.energy[p][k].c[3];
+            if (at < e) return {p, k, at / e};
+            at -= e;
+        }
+    }
+    return {kPaths, 0, std::min(0.9999999f, at / std::max(1e-30f, lobes.rest.c[3]))};
+}
+
+} // namespace
+
+ScatterValue hair_value(const Scatterer& at, Vec3f wi, Vec3f wo) {
+    return HairLobes(at.material, at.axis, wi).value(wo);
+}
+
+ScatterDraw draw_hair(const Scatterer& at, Vec3f wi, Vec3f u) {
+    const HairLobes lobes(at.material, at.axis, wi);
+    const Choice choice = choose(lobes, u.x);
+    // two more uniform numbers, from the bits of the three: three are used up by what matters most
+    const std::uint64_t more =
+        hash64(std::bit_cast<std::uint32_t>(u.x), std::bit_cast<std::uint32_t>(u.y),
+               std::bit_cast<std::uint32_t>(u.z));
+    const Inclination out =
+        sample_longitudinal(lobes.in[choice.path], lobes.v[choice.path], u.z, to_unit_float(more));
+    float phi = kTwoPi * u.y;
+    if (choice.path < kPaths) {
+        const float* edge = &lobes.phi[choice.path][choice.cell];
+        const float left_half = to_unit_float(more << 24) < 0.5f ? -1.0f : 1.0f;
+        phi = left_half * (edge[0] + choice.left * (edge[1] - edge[0])) + lobes.azimuth.sample(u.y);
+    }
+    const Vec3f local{out.cos * std::cos(phi), out.cos * std::sin(phi), out.sin};
+    const Vec3f wo = normalize(lobes.frame.world(local));
+    return {wo, lobes.value(wo)};
+}
+
+} // namespace heddle::detail

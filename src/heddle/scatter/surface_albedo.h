@@ -1,0 +1,37 @@
+#pragma once
+
+#include <heddle/base/vec.h>
+
+namespace heddle::detail {
+
+/// Smallest alpha: narrower, floats do not resolve the half vector.
+inline constexpr float kMinAlpha = 1e-3f;
+
+/// Widths of the distribution of normals along a surface's tangent and across it.
+struct Alphas {
+    float along, across;
+};
+
+/// alpha = roughness^2, and mix(alpha, 1, anisotropy^2) along the tangent. [KHR_materials_anisotropy]
+[[nodiscard]] Alphas alphas_of(float roughness, float anisotropy);
+
+/// A normal that is seen from `wi` of a GGX surface.                          [Heitz 2018; Dupuy 2023]
+/// @param wi    unit, z > 0, in the surface's frame
+/// @param u, t  uniform in [0, 1)
+[[nodiscard]] Vec3f sample_visible_normal(Alphas alpha, Vec3f wi, float u, float t);
+
+/// Share of the light that GGX mirrors send out again at their first reflection.
+struct SpecularAlbedo {
+    float all;  ///< where each reflects all
+    float edge; ///< where each reflects (1 - cos)^5: Schlick's rise towards grazing
+};
+
+/// Read from a table of 8 x 6 x 16 x 6 nodes, made at the first call (once, thread-safe, 50 ms).
+/// @param wi  unit, z > 0, in the surface's frame
+[[nodiscard]] SpecularAlbedo specular_albedo(float roughness, float anisotropy, Vec3f wi);
+
+/// The same by a sum over visible normals: what the table is made of.
+/// @param kSteps  squared is the number of normals
+[[nodiscard]] SpecularAlbedo integrate_specular_albedo(Alphas alpha, Vec3f wi, int steps);
+
+} // namespace heddle::detail
