@@ -46,14 +46,26 @@ Ray Camera::ray(float x, float y, std::array<float, 2> lens) const {
 }
 
 CameraView frame(const Bounds& box, Vec3d from, Vec3d up, double aspect) {
+    constexpr double kMargin = 1.06;
     CameraView out;
-    const Vec3d size = box.size();
-    const double radius = box.empty() ? 1.0 : std::max(0.5 * length(size), 1e-12);
-    const double half = 0.5 * out.view_angle;
-    const double narrow = aspect < 1.0 ? std::atan(std::tan(half) * aspect) : half;
-    out.target = box.empty() ? Vec3d{} : (box.lo + box.hi) * 0.5;
-    out.eye = out.target + normalize(from) * (radius / std::sin(narrow));
     out.up = up;
+    if (box.empty()) return out;
+    const Vec3d back = normalize(from);
+    const Vec3d right = normalize(cross(up, back));
+    const Vec3d top = cross(back, right);
+    const double tall = std::tan(0.5 * out.view_angle) / kMargin;
+    out.target = (box.lo + box.hi) * 0.5;
+    double away = 1e-6 * length(box.size()); // along `back` until all corners are in view
+    for (int c = 0; c < 8; ++c) {
+        const Vec3d corner = Vec3d{(c & 1) != 0 ? box.hi.x : box.lo.x,
+                                   (c & 2) != 0 ? box.hi.y : box.lo.y,
+                                   (c & 4) != 0 ? box.hi.z : box.lo.z} -
+                             out.target;
+        const double aside = std::max(std::fabs(dot(corner, right)) / aspect,
+                                      std::fabs(dot(corner, top)));
+        away = std::max(away, dot(corner, back) + aside / tall);
+    }
+    out.eye = out.target + back * (away > 0.0 ? away : 1.0);
     return out;
 }
 
