@@ -27,7 +27,7 @@ TEST(Hair, WithoutAbsorptionSendsAllOutForEveryDirectionAndWidth) {
     for (const float width : {.2f, .5f, 1.0f}) {
         for (const double theta : {0.0, .7, -1.3, 1.55}) {
             const test::Integral sum =
-                test::integrate(hair({}, width, width), inclined(theta), 192);
+                test::integrate(hair({}, width, width), inclined(theta), 128);
             EXPECT_NEAR(sum.energy[0], 1.0, 5e-3) << width << ' ' << theta;
             EXPECT_NEAR(sum.pdf, 1.0, 5e-3);
         }
@@ -70,7 +70,7 @@ double energy_of_cylinder(double theta, double absorption, double eta) {
 
 TEST(Hair, AbsorbsWhatACylinderDoes) {
     for (const double theta : {0.0, .6, -1.2}) {
-        const test::Integral sum = test::integrate(hair({.1f, .5f, 3.0f}), inclined(theta), 192);
+        const test::Integral sum = test::integrate(hair({.1f, .5f, 3.0f}), inclined(theta), 128);
         EXPECT_NEAR(sum.energy[0], energy_of_cylinder(theta, .1, 1.55), 8e-3) << theta;
         EXPECT_NEAR(sum.energy[1], energy_of_cylinder(theta, .5, 1.55), 8e-3) << theta;
         EXPECT_NEAR(sum.energy[2], energy_of_cylinder(theta, 3.0, 1.55), 8e-3) << theta;

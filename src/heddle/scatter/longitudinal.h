@@ -25,7 +25,7 @@ inline constexpr float kMinVariance = 1e-5f;
     const float q = a.sin + b.sin;
     const float inverse = 1.0f / v;
     const float spread = -0.5f * inverse * (p * p + q * q); // (cos(a + b) - 1) / v, not cancelling
-    const float whole = v * (1.0f - exp_approx(-2.0f * inverse));
+    const float whole = v < 0.1f ? v : v * (1.0f - exp_approx(-2.0f * inverse)); // e^-20 is lost
     return exp_approx(spread) * scaled_bessel_i0(a.cos * b.cos * inverse) / whole;
 }
 

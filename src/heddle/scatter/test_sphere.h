@@ -108,7 +108,7 @@ inline std::size_t bin_of(Vec3f w) {
 
 /// Chi-squared of samples against pdf, in standard deviations above its mean (Wilson and Hilferty).
 /// Absorbed samples are a bin of their own, which expects what the pdf lacks to 1.
-inline double chi_squared_z(const Scatterer& at, Vec3f wi, int samples = 100000, int fine = 12) {
+inline double chi_squared_z(const Scatterer& at, Vec3f wi, int samples = 100000, int fine = 10) {
     std::vector<double> expected(kRows * kColumns + 1);
     std::vector<double> observed(kRows * kColumns + 1);
     double all = 0.0;
