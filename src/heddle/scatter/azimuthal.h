@@ -13,7 +13,7 @@ namespace heddle::detail {
 }
 
 /// The logistic distribution cut off at -pi and pi and continued around the circle.
-/// [Chiang16, 3.2]: like a Gaussian of deviation 1.8 scale, with a distribution function in closed form.
+/// Like a Gaussian of deviation 1.8 scale, but its integral has a closed form.    [Chiang16]
 class CircleLogistic {
 public:
     /// @param scale  > 0, radians

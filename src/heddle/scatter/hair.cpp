@@ -46,14 +46,14 @@ float clamp(float x, float low, float high) {
     return std::min(high, std::max(low, x));
 }
 
-/// Longitudinal variance of R; TT has a quarter, TRT four times it.        [Chiang16, eq. 7]
+/// Longitudinal variance of R; TT has a quarter, TRT four times it.        [Chiang16]
 float variance_of(float width_m) {
     const float w = clamp(width_m, 0.0f, 1.0f);
     const float root = 0.726f * w + 0.812f * w * w + 3.7f * power_of_20(w);
     return std::max(4.0f * kMinVariance, root * root);
 }
 
-/// Scale of the azimuth's logistic.                                        [Chiang16, eq. 8]
+/// Scale of the azimuth's logistic.                                        [Chiang16]
 float scale_of(float width_n) {
     const float w = clamp(width_n, 0.05f, 1.0f);
     return 0.626657069f * (0.265f * w + 1.194f * w * w + 5.372f * power_of_20(w) * w * w);
@@ -88,8 +88,8 @@ struct HairLobes {
         set_energies(m.absorption, eta, eta_across, sine, cosine);
     }
 
-    /// Light's cone turned by the scales' tilt, times 2 towards the root for R, times 1 and 4 towards
-    /// the tip for TT and TRT.                                    [Marschner 2003; d'Eon 2011, sec. 5]
+    /// Light's cone turned by the scales' tilt, times 2 towards the root for R, times 1 and 4
+    /// towards the tip for TT and TRT.                       [Marschner 2003; d'Eon 2011]
     void set_inclinations(float tilt) {
         const float s = std::sin(tilt);
         const float c = std::cos(tilt);
@@ -114,7 +114,7 @@ struct HairLobes {
         }
     }
 
-    /// [Chiang16, eq. 10 to 13]: f, (1-f)^2 T, (1-f)^2 f T^2, and the geometric series of the rest
+    /// [Chiang16]: f, (1-f)^2 T, (1-f)^2 f T^2, and the geometric series of the rest
     void set_energies(Vec3f absorption, float eta, float eta_across, float sine, float cosine) {
         const float inverse = 1.0f / eta_across;
         const float steep = -2.0f / std::sqrt(1.0f - sine * sine / (eta * eta));

@@ -51,8 +51,8 @@ inline Scatterer askew(const ScatterMaterial& material) {
     return at;
 }
 
-/// Calls f(direction, steradians, row, column) for the middle of every cell of a grid that is even in
-/// both angles, so that lobes near the axis are resolved.
+/// Calls f(direction, steradians, row, column) for the middle of every cell of a grid that is even
+/// in both angles, so that lobes near the axis are resolved.
 template <typename F>
 void for_each_cell(int rows, const F& f) {
     const Askew frame;
