@@ -15,10 +15,15 @@ inline constexpr float kPi = 3.14159265f;
 inline constexpr float kTwoPi = 6.28318531f;
 inline constexpr float kInversePi = 0.318309886f;
 
+/// The nearest whole number, |x| < 2^31: std::floor is a library call before SSE 4.1.
+[[nodiscard]] inline float round_to_whole(float x) {
+    return static_cast<float>(static_cast<std::int32_t>(x + (x < 0.0f ? -0.5f : 0.5f)));
+}
+
 /// e^x within 2e-7 of itself for x in [-87, 88]; outside, the value at the nearer end.
 [[nodiscard]] inline float exp_approx(float x) {
     x = std::min(88.0f, std::max(-87.0f, x)); // NaN gives -87
-    const float n = std::floor(x * 1.44269504f + 0.5f);
+    const float n = round_to_whole(x * 1.44269504f);
     const float r = (x - n * 0.693359375f) + n * 2.12194440e-4f; // ln 2 in two parts
     const float tail = r * (1.0f / 24 + r * (1.0f / 120 + r * (1.0f / 720)));
     const float e = 1.0f + r * (1.0f + r * (0.5f + r * (1.0f / 6 + tail)));

@@ -9,28 +9,32 @@ namespace heddle::detail {
 
 /// `x` moved by whole turns into [-pi, pi].
 [[nodiscard]] inline float wrap_angle(float x) {
-    return x - kTwoPi * std::floor(x * (1.0f / kTwoPi) + 0.5f);
+    return x - kTwoPi * round_to_whole(x * (1.0f / kTwoPi));
 }
 
 /// The logistic distribution cut off at -pi and pi and continued around the circle.
-/// [Chiang16, 3.2]: like a Gaussian of deviation 1.8 scale, with a distribution function in closed form.
+/// Like a Gaussian of deviation 1.8 scale, but its integral has a closed form.    [Chiang16]
 class CircleLogistic {
 public:
     /// @param scale  > 0, radians
     explicit CircleLogistic(float scale)
-        : scale_(scale), inverse_(1.0f / scale), low_(raw(-kPi)), range_(1.0f - 2.0f * low_) {}
+        : scale_(scale),
+          inverse_(1.0f / scale),
+          low_(raw(-kPi)),
+          range_(1.0f - 2.0f * low_),
+          inverse_range_(1.0f / range_) {}
 
     [[nodiscard]] float scale() const { return scale_; }
 
     /// Density at `x`, any angle.
     [[nodiscard]] float density(float x) const {
         const float e = exp_approx(-std::fabs(wrap_angle(x)) * inverse_);
-        return e * inverse_ / ((1.0f + e) * (1.0f + e) * range_);
+        return e * inverse_ * inverse_range_ / ((1.0f + e) * (1.0f + e));
     }
     /// Integral of the density from -pi to `x`; a turn more adds 1.
     [[nodiscard]] float cumulative(float x) const {
-        const float turns = std::floor(x * (1.0f / kTwoPi) + 0.5f);
-        return turns + (raw(x - kTwoPi * turns) - low_) / range_;
+        const float turns = round_to_whole(x * (1.0f / kTwoPi));
+        return turns + (raw(x - kTwoPi * turns) - low_) * inverse_range_;
     }
     /// @param u  uniform in [0, 1)
     /// @return   in [-pi, pi]
@@ -42,7 +46,7 @@ public:
 private:
     [[nodiscard]] float raw(float x) const { return 1.0f / (1.0f + exp_approx(-x * inverse_)); }
 
-    float scale_, inverse_, low_, range_;
+    float scale_, inverse_, low_, range_, inverse_range_;
 };
 
 } // namespace heddle::detail

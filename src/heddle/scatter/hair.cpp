@@ -21,10 +21,6 @@ constexpr float kEdge[kCells + 1] = {0.0f,        0.19509032f, 0.38268343f,
 /// sin((k + 1/2) pi / 16): their middles; the cosines are the same backwards
 constexpr float kMiddle[kCells] = {0.09801714f, 0.29028468f, 0.47139674f, 0.63439328f,
                                    0.77301045f, 0.88192126f, 0.95694034f, 0.99518473f};
-/// Tilt of the lobes in multiples of the scales': light's cone is turned by these [Marschner 2003].
-/// R leans to the root, the others to the tip.
-constexpr float kTilt[kPaths + 1] = {2.0f, -1.0f, -4.0f, 0.0f};
-
 /// Unpolarized reflectance from outside.
 /// @param c    cosine of incidence, [0, 1]
 /// @param eta  > 1
@@ -40,26 +36,30 @@ float power_of_20(float x) {
     return x4 * x4 * x4 * x4 * x4;
 }
 
+/// In the order of a vector's lanes.
+float sum_of(const float (&x)[kCells]) {
+    static_assert(kCells == 8);
+    return ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]));
+}
+
 float clamp(float x, float low, float high) {
     return std::min(high, std::max(low, x));
 }
 
-/// Longitudinal variance of R; TT has a quarter, TRT four times it.        [Chiang16, eq. 7]
+/// Longitudinal variance of R; TT has a quarter, TRT four times it.        [Chiang16]
 float variance_of(float width_m) {
     const float w = clamp(width_m, 0.0f, 1.0f);
     const float root = 0.726f * w + 0.812f * w * w + 3.7f * power_of_20(w);
     return std::max(4.0f * kMinVariance, root * root);
 }
 
-/// Scale of the azimuth's logistic.                                        [Chiang16, eq. 8]
+/// Scale of the azimuth's logistic.                                        [Chiang16]
 float scale_of(float width_n) {
     const float w = clamp(width_n, 0.05f, 1.0f);
     return 0.626657069f * (0.265f * w + 1.194f * w * w + 5.372f * power_of_20(w) * w * w);
 }
 
-struct Rgba {
-    float c[4]; ///< red, green, blue, and the mean of them: what paths are chosen by
-};
+constexpr int kChannels = 4; ///< red, green, blue, and the mean of them: what paths are chosen by
 
 /// What leaves a fiber for one direction of incidence: everything that does not depend on wo.
 struct HairLobes {
@@ -67,10 +67,10 @@ struct HairLobes {
     CircleLogistic azimuth;
     float v[kPaths + 1];
     Inclination in[kPaths + 1];
-    float phi[kPaths][kCells + 1]; ///< exit azimuth at the cells' edges
-    Rgba energy[kPaths][kCells]{}; ///< of both halves' cells
-    Rgba rest{};                   ///< of the paths beyond TRT
-    float total = 0.0f;            ///< of the last channel of all
+    float phi[kPaths][kCells + 1];           ///< exit azimuth at the cells' edges
+    float energy[kPaths][kChannels][kCells]; ///< of both halves' cells
+    float rest[kChannels];                   ///< of the paths beyond TRT
+    float total;                             ///< of the last channel of all
 
     HairLobes(const ScatterMaterial& m, Vec3f axis, Vec3f wi)
         : frame(axis, wi), azimuth(scale_of(m.width_n)) {
@@ -78,10 +78,7 @@ struct HairLobes {
         v[0] = r;
         v[1] = 0.25f * r;
         v[2] = v[3] = 4.0f * r;
-        for (int p = 0; p <= kPaths; ++p) {
-            const float a = kTilt[p] * m.tilt;
-            in[p] = turn(frame.in, std::sin(a), std::cos(a));
-        }
+        set_inclinations(m.tilt);
         const float eta = std::max(1.01f, m.eta);
         const float sine = clamp(frame.in.sin, -1.0f, 1.0f);
         const float cosine = std::max(1e-4f, frame.in.cos);
@@ -91,52 +88,78 @@ struct HairLobes {
         set_energies(m.absorption, eta, eta_across, sine, cosine);
     }
 
+    /// Light's cone turned by the scales' tilt, times 2 towards the root for R, times 1 and 4
+    /// towards the tip for TT and TRT.                       [Marschner 2003; d'Eon 2011]
+    void set_inclinations(float tilt) {
+        const float s = std::sin(tilt);
+        const float c = std::cos(tilt);
+        const float s2 = 2.0f * s * c;
+        const float c2 = c * c - s * s;
+        in[0] = turn(frame.in, s2, c2);
+        in[1] = turn(frame.in, -s, c);
+        in[2] = turn(frame.in, -2.0f * s2 * c2, c2 * c2 - s2 * s2);
+        in[3] = frame.in;
+    }
+
     void set_azimuths(float eta_across) {
         constexpr float kStep = kPi / (2 * kCells);
-        for (int k = 0; k <= kCells; ++k) {
-            const float out = kStep * static_cast<float>(k);
-            const float inside = 0.5f * kPi - acos_approx(kEdge[k] / eta_across);
-            phi[0][k] = -2.0f * out;
-            phi[1][k] = 2.0f * inside - 2.0f * out + kPi;
-            phi[2][k] = 4.0f * inside - 2.0f * out + kTwoPi;
+        const float inverse = 1.0f / eta_across;
+        for (int p = 0; p < kPaths; ++p) phi[p][0] = kPi * static_cast<float>(p);
+        for (int k = 1; k <= kCells; ++k) {
+            const float out = -2.0f * kStep * static_cast<float>(k);
+            const float inside = kPi - 2.0f * acos_approx(kEdge[k] * inverse);
+            phi[0][k] = out;
+            phi[1][k] = inside + (out + kPi);
+            phi[2][k] = 2.0f * inside + (out + kTwoPi);
         }
     }
 
-    /// [Chiang16, eq. 10 to 13]: f, (1-f)^2 T, (1-f)^2 f T^2, and the geometric series of the rest
+    /// [Chiang16]: f, (1-f)^2 T, (1-f)^2 f T^2, and the geometric series of the rest
     void set_energies(Vec3f absorption, float eta, float eta_across, float sine, float cosine) {
-        const float cosine_inside = std::sqrt(1.0f - sine * sine / (eta * eta));
+        const float inverse = 1.0f / eta_across;
+        const float steep = -2.0f / std::sqrt(1.0f - sine * sine / (eta * eta));
+        float f[kCells];
+        float path[kCells];
+        float width[kCells];
         for (int k = 0; k < kCells; ++k) {
-            const float width = kEdge[k + 1] - kEdge[k];
-            const float f = fresnel(std::min(1.0f, cosine * kMiddle[kCells - 1 - k]), eta);
-            const float h = kMiddle[k] / eta_across;
-            const float path = -2.0f * std::sqrt(1.0f - h * h) / cosine_inside;
-            Rgba sum[kPaths + 1]{};
-            for (int c = 0; c < 3; ++c) {
-                const float T = exp_approx(std::max(0.0f, absorption[c]) * path);
-                const float tt = width * (1.0f - f) * (1.0f - f) * T;
-                const float a[kPaths + 1] = {width * f, tt, tt * f * T,
-                                             tt * f * f * T * T / std::max(1e-6f, 1.0f - f * T)};
-                for (int p = 0; p <= kPaths; ++p) {
-                    sum[p].c[c] = a[p];
-                    sum[p].c[3] += a[p] * (1.0f / 3.0f);
-                }
+            width[k] = kEdge[k + 1] - kEdge[k];
+            f[k] = fresnel(std::min(1.0f, cosine * kMiddle[kCells - 1 - k]), eta);
+            const float h = kMiddle[k] * inverse;
+            path[k] = steep * std::sqrt(1.0f - h * h);
+        }
+        for (int c = 0; c < 3; ++c) {
+            const float sigma = std::max(0.0f, absorption[c]);
+            float beyond[kCells];
+            for (int k = 0; k < kCells; ++k) {
+                const float T = exp_approx(sigma * path[k]);
+                const float tt = width[k] * (1.0f - f[k]) * (1.0f - f[k]) * T;
+                const float again = f[k] * T;
+                energy[0][c][k] = width[k] * f[k];
+                energy[1][c][k] = tt;
+                energy[2][c][k] = tt * again;
+                beyond[k] = tt * again * again / std::max(1e-6f, 1.0f - again);
             }
-            for (int p = 0; p < kPaths; ++p) energy[p][k] = sum[p];
-            for (int c = 0; c < 4; ++c) rest.c[c] += sum[kPaths].c[c];
-            for (int p = 0; p <= kPaths; ++p) total += sum[p].c[3];
+            rest[c] = sum_of(beyond);
+        }
+        rest[3] = (rest[0] + rest[1] + rest[2]) * (1.0f / 3.0f);
+        total = rest[3];
+        for (auto& e : energy) {
+            for (int k = 0; k < kCells; ++k)
+                e[3][k] = (e[0][k] + e[1][k] + e[2][k]) * (1.0f / 3.0f);
+            total += sum_of(e[3]);
         }
     }
 
-    /// Density in azimuth of what leaves through cell k of path p, mean of the two halves: the
-    /// logistic averaged over the azimuths between the cell's edges.
+    /// Density in azimuth of what leaves through the cells of path p, mean of the two halves: the
+    /// logistic averaged over the azimuths between a cell's edges.
     void spread_over_cells(int p, float at, float (&density)[kCells]) const {
         float both[kCells + 1];
-        for (int k = 0; k <= kCells; ++k) {
+        both[0] = static_cast<float>(-p); // the edge at p half turns: the same for both halves
+        for (int k = 1; k <= kCells; ++k) {
             both[k] = azimuth.cumulative(at - phi[p][k]) - azimuth.cumulative(at + phi[p][k]);
         }
         for (int k = 0; k < kCells; ++k) {
-            const float gap = phi[p][k + 1] - phi[p][k];
-            density[k] = 0.5f * (both[k] - both[k + 1]) / gap;
+            density[k] = 0.5f * (both[k] - both[k + 1]) / (phi[p][k + 1] - phi[p][k]);
         }
         // where the exit azimuth turns back (a caustic of TRT) a cell has no width
         const float least = 0.02f * azimuth.scale();
@@ -148,23 +171,23 @@ struct HairLobes {
     }
 
     [[nodiscard]] ScatterValue value(Vec3f wo) const {
+        if (!(total > 0.0f)) return {};
         const Vec3f w = frame.local(wo);
         const Inclination out{w.z, std::sqrt(w.x * w.x + w.y * w.y)};
         const float at = std::atan2(w.y, w.x);
-        const float even = longitudinal(in[kPaths], out, v[kPaths]) * (0.5f * kInversePi);
-        float sum[4];
-        for (int c = 0; c < 4; ++c) sum[c] = rest.c[c] * even;
+        float sum[kChannels][kCells]{};
         for (int p = 0; p < kPaths; ++p) {
             float density[kCells];
             spread_over_cells(p, at, density);
             const float along = longitudinal(in[p], out, v[p]);
-            for (int k = 0; k < kCells; ++k) {
-                const float d = along * std::max(0.0f, density[k]);
-                for (int c = 0; c < 4; ++c) sum[c] += energy[p][k].c[c] * d;
+            for (float& d : density) d = along * std::max(0.0f, d);
+            for (int c = 0; c < kChannels; ++c) {
+                for (int k = 0; k < kCells; ++k) sum[c][k] += energy[p][c][k] * density[k];
             }
         }
-        if (!(total > 0.0f)) return {};
-        return {{sum[0], sum[1], sum[2]}, sum[3] / total};
+        const float even = longitudinal(in[kPaths], out, v[kPaths]) * (0.5f * kInversePi);
+        const auto channel = [&](int c) { return sum_of(sum[c]) + rest[c] * even; };
+        return {{channel(0), channel(1), channel(2)}, channel(3) / total};
     }
 };
 
@@ -179,12 +202,12 @@ Choice choose(const HairLobes& lobes, float u) {
     float at = u * lobes.total;
     for (int p = 0; p < kPaths; ++p) {
         for (int k = 0; k < kCells; ++k) {
-            const float e = lobes.energy[p][k].c[3];
+            const float e = lobes.energy[p][3][k];
             if (at < e) return {p, k, at / e};
             at -= e;
         }
     }
-    return {kPaths, 0, std::min(0.9999999f, at / std::max(1e-30f, lobes.rest.c[3]))};
+    return {kPaths, 0, std::min(0.9999999f, at / std::max(1e-30f, lobes.rest[3]))};
 }
 
 } // namespace

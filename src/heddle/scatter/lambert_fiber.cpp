@@ -8,8 +8,8 @@
 namespace heddle::detail {
 namespace {
 
-/// cos(theta_o) ((pi - d) cos d + sin d) / (4 pi), d the azimuth between the two: the mean, over the
-/// normals that wi sees, of <n . wo> / pi. wi's inclination cancels.                [docs/scatter.md]
+/// cos(theta_o) ((pi - d) cos d + sin d) / (4 pi), d the azimuth between the two: the mean, over
+/// the normals that wi sees, of <n . wo> / pi. wi's inclination cancels.       [docs/scatter.md]
 /// @param w  wo in the fiber's frame
 float density(Vec3f w) {
     const float c = std::sqrt(w.x * w.x + w.y * w.y);

@@ -15,7 +15,7 @@ inline constexpr float kMinVariance = 1e-5f;
 /// How a cone of light that leaves a fiber spreads along it: a Gaussian on the sphere.
 ///
 /// M = exp((cos(a + b) - 1) / v) e^-x I_0(x) / (v (1 - e^(-2 / v))), x = cos a cos b / v
-/// [d'Eon 2011, eq. 7]; the integral of M cos b over b is 1 for any a and v.
+/// [d'Eon 2011]; the integral of M cos b over b is 1 for any a and v.
 ///
 /// @param a  of the light's cone; the lobe is about b = -a
 /// @param b  where it is asked for
@@ -25,7 +25,7 @@ inline constexpr float kMinVariance = 1e-5f;
     const float q = a.sin + b.sin;
     const float inverse = 1.0f / v;
     const float spread = -0.5f * inverse * (p * p + q * q); // (cos(a + b) - 1) / v, not cancelling
-    const float whole = v * (1.0f - exp_approx(-2.0f * inverse));
+    const float whole = v < 0.1f ? v : v * (1.0f - exp_approx(-2.0f * inverse)); // e^-20 is lost
     return exp_approx(spread) * scaled_bessel_i0(a.cos * b.cos * inverse) / whole;
 }
 

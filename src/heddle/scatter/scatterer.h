@@ -27,11 +27,12 @@ struct ScatterMaterial {
     float metalness = 0.0f;  ///< in [0, 1]
     float anisotropy = 0.0f; ///< strength in [0, 1]        [KHR_materials_anisotropy]
     float specular = 1.0f;   ///< multiplies the dielectric's F0 of .04; 0: diffuse alone
-    // lobe fiber: colours of the lobes and widths               [Khungurn15, table 1]
+    // lobe fiber: energies of the lobes and their widths. Of a row of [Khungurn15, table 1]:
+    // color_r = R, color_tt = (1 - R) TT, widths in radians, tilt 0 (docs/scatter.md)
     Vec3f color_r{0.1f, 0.1f, 0.1f};
     Vec3f color_tt{0.6f, 0.6f, 0.6f};
-    float width_r = 0.1f;    ///< longitudinal, radians
-    float width_tt = 0.3f;   ///< longitudinal, radians
+    float width_r = 0.1f;    ///< of theta_o about -theta_i, radians
+    float width_tt = 0.3f;   ///< the same of TT
     float azimuth_tt = 0.5f; ///< azimuthal width of TT, radians
     // hair
     Vec3f absorption{0.2f, 0.4f, 0.8f}; ///< sigma_a per fiber radius
@@ -39,17 +40,19 @@ struct ScatterMaterial {
     float width_n = 0.3f;               ///< azimuthal roughness in [0, 1]
     float eta = 1.55f;
     // fibers and hair
-    float tilt = 0.035f; ///< of the cuticle's scales, radians
+    float tilt = 0.035f; ///< of the cuticle's scales, radians: R leans to -axis by twice this
 };
 
-/// What stands at a place where a path scatters: the same thing for a voxel's drawn lobe direction and
-/// for the point where traced geometry was hit. World axes.
+/// What stands at a place where a path scatters: the same thing for a voxel's drawn lobe direction
+/// and for the point where traced geometry was hit. World axes.
 struct Scatterer {
     ScatterMaterial material; ///< constants, maps multiplied in
-    Vec3f axis{0, 0, 1}; ///< unit: tangent of a fiber; normal of a surface on the viewer's side
-    Vec3f tangent{1, 0,
-                  0}; ///< unit, at right angles to `axis`: a surface's direction of anisotropy
-    SggxMatrix lobe;  ///< of normals: microflakes alone
+    /// Unit: tangent of a fiber, to its tip; normal of a surface on the viewer's side.
+    Vec3f axis{0, 0, 1};
+    /// Unit, at right angles to `axis`: where an anisotropic surface is rougher; highlights stretch
+    /// along it.
+    Vec3f tangent{1, 0, 0};
+    SggxMatrix lobe; ///< of normals: microflakes alone
 };
 
 /// A direction drawn from a scatterer.
@@ -81,8 +84,8 @@ struct ScatterValue {
 
 /// Draws a direction.
 /// @param u  three uniform numbers in [0, 1)
-/// @return   `roughness` is 1 / sqrt(pi pdf), at most 1: the radius of a disc that holds all of such a
-///           density, the same measure for every model; weight and pdf 0 where the draw was absorbed
+/// @return   `roughness` is 1 / sqrt(pi pdf), at most 1: the radius of a disc with that
+///           density, for every model; weight and pdf are 0 where the draw was absorbed
 [[nodiscard]] ScatterSample sample(const Scatterer& at, Vec3f wi, Vec3f u);
 
 } // namespace heddle

@@ -54,7 +54,7 @@ struct SurfaceLobes {
     }
 
     /// Light lost between mirrors comes back as more of the first reflection: white metal keeps
-    /// all; F0 once more for each reflection after it.               [Turquin 2019, eq. 16]
+    /// all; F0 once more for each reflection after it.               [Turquin 2019]
     void set_reflectance(const ScatterMaterial& m, SpecularAlbedo share) {
         const float specular = std::max(0.0f, m.specular);
         const float plastic = std::min(1.0f, kDielectric * specular);

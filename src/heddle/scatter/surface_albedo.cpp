@@ -9,27 +9,37 @@
 namespace heddle::detail {
 namespace {
 
-constexpr int kRoughnesses = 8;  ///< nodes even in roughness
-constexpr int kAnisotropies = 6; ///< even in anisotropy
-constexpr int kHeights = 16;     ///< even in sqrt(cos theta)
-constexpr int kAzimuths = 6;     ///< even in |cos phi|
-constexpr int kSlice = kHeights * kAzimuths;
-using Table = std::array<SpecularAlbedo, kRoughnesses * kAnisotropies * kSlice>;
+/// Nodes of a table: even in roughness, anisotropy, sqrt(cos theta) and |cos phi|.
+struct Nodes {
+    int roughness, anisotropy, height, azimuth;
 
-Table make_table() {
-    Table table;
+    [[nodiscard]] constexpr int slice() const { return height * azimuth; }
+    [[nodiscard]] constexpr std::size_t count() const {
+        return static_cast<std::size_t>(roughness * anisotropy * slice());
+    }
+};
+constexpr Nodes kRound{24, 1, 32, 1};
+constexpr Nodes kStretched{12, 8, 24, 6};
+
+float fraction(int node, int count) {
+    return count > 1 ? static_cast<float>(node) / static_cast<float>(count - 1) : 0.0f;
+}
+
+template <Nodes kNodes>
+std::array<SpecularAlbedo, kNodes.count()> make_table(int normals) {
+    std::array<SpecularAlbedo, kNodes.count()> table;
     std::size_t n = 0;
-    for (int r = 0; r < kRoughnesses; ++r) {
-        for (int a = 0; a < kAnisotropies; ++a) {
-            const Alphas alpha = alphas_of(static_cast<float>(r) / (kRoughnesses - 1),
-                                           static_cast<float>(a) / (kAnisotropies - 1));
-            for (int i = 0; i < kSlice; ++i) {
-                const float root = static_cast<float>(i / kAzimuths) / (kHeights - 1);
+    for (int r = 0; r < kNodes.roughness; ++r) {
+        for (int a = 0; a < kNodes.anisotropy; ++a) {
+            const Alphas alpha =
+                alphas_of(fraction(r, kNodes.roughness), fraction(a, kNodes.anisotropy));
+            for (int i = 0; i < kNodes.slice(); ++i) {
+                const float root = fraction(i / kNodes.azimuth, kNodes.height);
                 const float z = std::max(1e-4f, root * root);
                 const float sine = std::sqrt(1.0f - z * z);
-                const float c = static_cast<float>(i % kAzimuths) / (kAzimuths - 1);
+                const float c = fraction(i % kNodes.azimuth, kNodes.azimuth);
                 const Vec3f wi{sine * c, sine * std::sqrt(1.0f - c * c), z};
-                table[n++] = integrate_specular_albedo(alpha, wi, 16);
+                table[n++] = integrate_specular_albedo(alpha, wi, normals);
             }
         }
     }
@@ -71,16 +81,18 @@ Vec3f sample_visible_normal(Alphas alpha, Vec3f wi, float u, float t) {
     return normalize(Vec3f{h.x * alpha.along, h.y * alpha.across, std::max(1e-7f, h.z)});
 }
 
-SpecularAlbedo integrate_specular_albedo(Alphas alpha, Vec3f wi, int steps) {
+SpecularAlbedo integrate_specular_albedo(Alphas alpha, Vec3f wi, int count) {
     const auto stretched = [alpha](Vec3f w) {
         return length(Vec3f{w.x * alpha.along, w.y * alpha.across, w.z});
     };
     const float in = stretched(wi);
-    const float step = 1.0f / static_cast<float>(steps);
+    constexpr double kGolden = 0.6180339887498949; // turns of a Fibonacci lattice
+    const float step = 1.0f / static_cast<float>(count);
     SpecularAlbedo sum{};
-    for (int i = 0; i < steps * steps; ++i) {
-        const float u = (static_cast<float>(i % steps) + 0.5f) * step;
-        const float t = (static_cast<float>(i / steps) + 0.5f) * step;
+    for (int i = 0; i < count; ++i) {
+        const double turns = kGolden * i;
+        const auto u = static_cast<float>(turns - std::floor(turns));
+        const float t = (static_cast<float>(i) + 0.5f) * step;
         const Vec3f h = sample_visible_normal(alpha, wi, u, t);
         const float c = dot(wi, h);
         const Vec3f wo = h * (2.0f * c) - wi;
@@ -91,28 +103,48 @@ SpecularAlbedo integrate_specular_albedo(Alphas alpha, Vec3f wi, int steps) {
         sum.all += shown;
         sum.edge += shown * (rest * rest) * (rest * rest) * rest;
     }
-    return {sum.all * step * step, sum.edge * step * step};
+    return {sum.all * step, sum.edge * step};
 }
 
-SpecularAlbedo specular_albedo(float roughness, float anisotropy, Vec3f wi) {
-    static const Table table = make_table();
-    const Step r = step_of(roughness, kRoughnesses);
-    const Step a = step_of(anisotropy, kAnisotropies);
-    const Step z = step_of(std::sqrt(std::max(0.0f, wi.z)), kHeights);
-    const float across = std::sqrt(wi.x * wi.x + wi.y * wi.y);
-    const Step phi = step_of(across > 0.0f ? std::fabs(wi.x) / across : 1.0f, kAzimuths);
+namespace {
 
-    const SpecularAlbedo* const first = table.data() + z.node * kAzimuths + phi.node;
+SpecularAlbedo round_albedo(float roughness, float root_z) {
+    static const auto table = make_table<kRound>(610);
+    const Step r = step_of(roughness, kRound.roughness);
+    const Step z = step_of(root_z, kRound.height);
+    const SpecularAlbedo* const p = table.data() + r.node * kRound.height + z.node;
+    const SpecularAlbedo* const q = p + kRound.height;
+    return mix(mix(p[0], p[1], z.f), mix(q[0], q[1], z.f), r.f);
+}
+
+SpecularAlbedo stretched_albedo(float roughness, float anisotropy, float root_z, float cosine) {
+    constexpr Nodes kN = kStretched;
+    static const auto table = make_table<kStretched>(233);
+    const Step r = step_of(roughness, kN.roughness);
+    const Step a = step_of(anisotropy, kN.anisotropy);
+    const Step z = step_of(root_z, kN.height);
+    const Step phi = step_of(cosine, kN.azimuth);
+    const SpecularAlbedo* const first = table.data() + z.node * kN.azimuth + phi.node;
     const auto slice = [&](int roughness_node, int anisotropy_node) {
-        const SpecularAlbedo* p =
-            first + (roughness_node * kAnisotropies + anisotropy_node) * kSlice;
-        return mix(mix(p[0], p[1], phi.f), mix(p[kAzimuths], p[kAzimuths + 1], phi.f), z.f);
+        const SpecularAlbedo* const p =
+            first + (roughness_node * kN.anisotropy + anisotropy_node) * kN.slice();
+        const SpecularAlbedo* const q = p + kN.azimuth;
+        return mix(mix(p[0], p[1], phi.f), mix(q[0], q[1], phi.f), z.f);
     };
     const auto along_roughness = [&](int anisotropy_node) {
         return mix(slice(r.node, anisotropy_node), slice(r.node + 1, anisotropy_node), r.f);
     };
-    if (anisotropy <= 0.0f) return along_roughness(0);
     return mix(along_roughness(a.node), along_roughness(a.node + 1), a.f);
+}
+
+} // namespace
+
+SpecularAlbedo specular_albedo(float roughness, float anisotropy, Vec3f wi) {
+    const float root_z = std::sqrt(std::max(0.0f, wi.z));
+    if (anisotropy <= 0.0f) return round_albedo(roughness, root_z);
+    const float across = std::sqrt(wi.x * wi.x + wi.y * wi.y);
+    const float cosine = across > 0.0f ? std::fabs(wi.x) / across : 1.0f;
+    return stretched_albedo(roughness, anisotropy, root_z, cosine);
 }
 
 } // namespace heddle::detail

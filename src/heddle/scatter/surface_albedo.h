@@ -12,10 +12,10 @@ struct Alphas {
     float along, across;
 };
 
-/// alpha = roughness^2, and mix(alpha, 1, anisotropy^2) along the tangent. [KHR_materials_anisotropy]
+/// alpha = roughness^2; mix(alpha, 1, anisotropy^2) along the tangent   [KHR_materials_anisotropy]
 [[nodiscard]] Alphas alphas_of(float roughness, float anisotropy);
 
-/// A normal that is seen from `wi` of a GGX surface.                          [Heitz 2018; Dupuy 2023]
+/// A normal that is seen from `wi` of a GGX surface.                     [Heitz 2018; Dupuy 2023]
 /// @param wi    unit, z > 0, in the surface's frame
 /// @param u, t  uniform in [0, 1)
 [[nodiscard]] Vec3f sample_visible_normal(Alphas alpha, Vec3f wi, float u, float t);
@@ -26,12 +26,13 @@ struct SpecularAlbedo {
     float edge; ///< where each reflects (1 - cos)^5: Schlick's rise towards grazing
 };
 
-/// Read from a table of 8 x 6 x 16 x 6 nodes, made at the first call (once, thread-safe, 50 ms).
+/// Read from tables of 24 x 32 nodes (no anisotropy) and 12 x 8 x 24 x 6, each made when first
+/// read: once, thread-safe, about 25 and 160 ms. Errors: docs/scatter.md.
 /// @param wi  unit, z > 0, in the surface's frame
 [[nodiscard]] SpecularAlbedo specular_albedo(float roughness, float anisotropy, Vec3f wi);
 
 /// The same by a sum over visible normals: what the table is made of.
-/// @param kSteps  squared is the number of normals
-[[nodiscard]] SpecularAlbedo integrate_specular_albedo(Alphas alpha, Vec3f wi, int steps);
+/// @param count  of normals
+[[nodiscard]] SpecularAlbedo integrate_specular_albedo(Alphas alpha, Vec3f wi, int count);
 
 } // namespace heddle::detail

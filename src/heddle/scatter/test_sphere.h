@@ -51,8 +51,8 @@ inline Scatterer askew(const ScatterMaterial& material) {
     return at;
 }
 
-/// Calls f(direction, steradians, row, column) for the middle of every cell of a grid that is even in
-/// both angles, so that lobes near the axis are resolved.
+/// Calls f(direction, steradians, row, column) for the middle of every cell of a grid that is even
+/// in both angles, so that lobes near the axis are resolved.
 template <typename F>
 void for_each_cell(int rows, const F& f) {
     const Askew frame;
@@ -108,7 +108,7 @@ inline std::size_t bin_of(Vec3f w) {
 
 /// Chi-squared of samples against pdf, in standard deviations above its mean (Wilson and Hilferty).
 /// Absorbed samples are a bin of their own, which expects what the pdf lacks to 1.
-inline double chi_squared_z(const Scatterer& at, Vec3f wi, int samples = 100000, int fine = 12) {
+inline double chi_squared_z(const Scatterer& at, Vec3f wi, int samples = 100000, int fine = 10) {
     std::vector<double> expected(kRows * kColumns + 1);
     std::vector<double> observed(kRows * kColumns + 1);
     double all = 0.0;
