@@ -3,8 +3,8 @@
 #include <heddle/base/error.h>
 #include <heddle/base/nearest_name.h>
 #include <heddle/io/input_file.h>
-#include <heddle/scene/header_lines.h>
 #include <heddle/scene/scene_parts.h>
+#include <heddle/scene/toml_text.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -83,7 +83,7 @@ void SceneDraft::include(const std::string& path, const Place& place) {
 }
 
 void SceneDraft::read_text(const std::string& path, const std::string& text) {
-    if (!scene_form::check_header_lines(text, path, problems_)) return;
+    if (!scene_form::check_toml_text(text, path, problems_)) return;
     const std::string id = canonical(path);
     open_.push_back(id);
     try {

@@ -89,7 +89,7 @@ std::string write_tiled(const TempFolder& folder, Imf::Compression compression) 
     Imf::TiledRgbaOutputFile file(folder.file("t.exr").c_str(), 16, 8, Imf::MIPMAP_LEVELS,
                                   Imf::ROUND_DOWN, window, window, Imf::WRITE_RGB, 1, {0, 0}, 1,
                                   Imf::INCREASING_Y, compression, 0);
-    std::vector<Imf::Rgba> pixels(40 * 20);
+    std::vector<Imf::Rgba> pixels(40 * 20, Imf::Rgba(0.0f, 0.0f, 0.0f));
     for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i].g = static_cast<float>(i);
     file.setFrameBuffer(pixels.data() - (10 * 40 - 3), 1, 40);
     for (int level = 0; level < file.numLevels(); ++level) {
