@@ -1,14 +1,15 @@
 #include <heddle/base/error.h>
 #include <heddle/cli/load.h>
-#include <heddle/io/curve_files.h>
 #include <heddle/io/image/image.h>
 #include <heddle/io/input_file.h>
 #include <heddle/io/mesh/read_mesh.h>
 #include <heddle/io/output_file.h>
 #include <heddle/io/yarn_file.h>
+#include <heddle/scene/load_object.h>
 
 #include <filesystem>
 #include <limits>
+#include <utility>
 
 namespace heddle::cli {
 namespace {
@@ -33,44 +34,16 @@ std::string preset_names() {
     return names;
 }
 
-YarnType asked_yarn(Geometry& geometry, const Arguments& arguments) {
-    YarnFile file =
-        read_yarn(arguments.text("yarn"), [](const std::string& path) { return read_image(path); });
-    geometry.notes.insert(geometry.notes.end(), file.notes.begin(), file.notes.end());
-    if (arguments.given("fibers")) {
-        const std::string note = set_fiber_count(file.yarn, arguments.integer("fibers"));
-        if (!note.empty()) geometry.notes.push_back(note);
+/// The rows that say what the curves become. All of them are above 0 where they are given.
+YarnOptions yarn_options(const Arguments& arguments) {
+    YarnOptions options;
+    if (arguments.given("yarn")) options.yarn = arguments.text("yarn");
+    if (arguments.given("fibers")) options.fibers = arguments.integer("fibers");
+    for (const auto& [name, out] : {std::pair{"yarn-radius", &options.yarn_radius},
+                                    std::pair{"fiber-radius", &options.fiber_radius}}) {
+        if (arguments.given(name)) *out = static_cast<float>(arguments.number(name));
     }
-    if (arguments.given("fiber-radius")) {
-        file.yarn.fiber_radius = static_cast<float>(arguments.number("fiber-radius"));
-    }
-    if (arguments.given("yarn-radius")) {
-        file.yarn.radius = static_cast<float>(arguments.number("yarn-radius"));
-    }
-    return std::move(file.yarn);
-}
-
-/// All curves become this yarn, in a fiber material of its colour.
-void make_yarn(Geometry& geometry, YarnType yarn) {
-    Material material;
-    material.name = yarn.name;
-    material.kind = MaterialKind::Fiber;
-    material.albedo = yarn.albedo;
-    if (geometry.meshes.empty())
-        geometry.materials.clear(); // the reader's, which nothing names now
-    geometry.materials.push_back(material);
-    geometry.yarns.assign(1, std::move(yarn));
-    for (CurveSet& set : geometry.curves) {
-        set.yarn = 0;
-        set.material = static_cast<std::uint32_t>(geometry.materials.size() - 1);
-    }
-}
-
-void set_solid_radius(Geometry& geometry, float radius) {
-    for (CurveSet& set : geometry.curves) {
-        set.radius.clear();
-        set.default_radius = radius;
-    }
+    return options;
 }
 
 void refuse_without(const Arguments& arguments, const char* option, bool usable, const char* need) {
@@ -107,13 +80,7 @@ std::vector<Option> model_options() {
 }
 
 Geometry load_geometry(const std::string& path, const Arguments& arguments) {
-    if (is_curve_file(path)) return read_curves(path, read_options(arguments));
-    const std::string suffix = suffix_of(path);
-    if (suffix == ".obj") return read_obj(path);
-    if (suffix == ".ply") return read_ply(path);
-    if (suffix == ".gltf" || suffix == ".glb") return read_gltf(path);
-    throw Error(ErrorCode::Unsupported, str("no reader for the suffix '", suffix, "'"),
-                "known: .bcc .hair .data .pyp .obj .ply .gltf .glb", {.path = path});
+    return read_geometry(path, read_options(arguments));
 }
 
 void apply_model(Geometry& geometry, const Arguments& arguments) {
@@ -125,12 +92,7 @@ void apply_model(Geometry& geometry, const Arguments& arguments) {
     for (const char* option : {"height-scale", "height-offset"}) {
         refuse_without(arguments, option, arguments.given("height-map"), "it needs --height-map");
     }
-    if (arguments.given("yarn")) {
-        make_yarn(geometry, asked_yarn(geometry, arguments));
-    } else if (arguments.given("fiber-radius") || arguments.given("yarn-radius")) {
-        const char* radius = arguments.given("fiber-radius") ? "fiber-radius" : "yarn-radius";
-        set_solid_radius(geometry, static_cast<float>(arguments.number(radius)));
-    }
+    apply_yarn(geometry, yarn_options(arguments));
     if (arguments.given("height-map")) {
         set_height_map(geometry, read_image(arguments.text("height-map")),
                        static_cast<float>(arguments.number("height-scale")),

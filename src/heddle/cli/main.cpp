@@ -49,6 +49,13 @@ int fail(ExitCode code, std::string text) {
     return code;
 }
 
+/// An Error's problems on stderr, one a line.
+int fail(const Error& error) {
+    const ExitCode code = exit_code(error);
+    for (const std::string& line : split(error.what(), '\n')) fail(code, line);
+    return code;
+}
+
 /// The words as a shell would take them back.
 std::string quote_line(const std::vector<std::string>& words) {
     constexpr std::string_view kPlain =
@@ -125,7 +132,7 @@ int guarded_run(const std::vector<std::string>& words) {
     } catch (const UsageError& e) {
         return fail(Usage, e.what());
     } catch (const Error& e) {
-        return fail(exit_code(e), e.what());
+        return fail(e);
     } catch (const std::bad_alloc&) {
         return fail(DeviceOrMemory, "out of memory; give --memory less than what is free");
     } catch (const std::exception& e) {

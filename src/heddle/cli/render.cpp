@@ -93,8 +93,8 @@ void run_render(const Arguments& arguments, Report& report, ProgressBar& bar) {
 
     bar.begin("read", "files", 1);
     Stage stage(scene, {arguments.given("geometry")}, bar);
-    const RenderOutcome outcome = render_to_file(stage, options, scene.integrator.seed, scene.width,
-                                                 scene.height, job, bar);
+    const RenderOutcome outcome =
+        render_to_file(stage, options, scene.integrator.seed, scene.width, scene.height, job, bar);
     bar.finish();
     report.text("output", job.output);
     report.add("size", "size", {scene.width, scene.height},
@@ -102,8 +102,8 @@ void run_render(const Arguments& arguments, Report& report, ProgressBar& bar) {
     report.count("samples", outcome.samples, "per pixel");
     if (job.resume) report.count("resumed from", outcome.resumed_from, "per pixel");
     report.number("noise", outcome.noise);
-    const double paths = static_cast<double>(outcome.samples - outcome.resumed_from) * scene.width *
-                         scene.height;
+    const double paths =
+        static_cast<double>(outcome.samples - outcome.resumed_from) * scene.width * scene.height;
     report.seconds("first picture", outcome.first_picture_seconds);
     report.seconds("levels", outcome.load_seconds);
     report.seconds("render", outcome.render_seconds);
@@ -117,32 +117,33 @@ void run_render(const Arguments& arguments, Report& report, ProgressBar& bar) {
 } // namespace
 
 Command render_command() {
-    return {"render",
-            "a picture of a scene file or a .vdb by path tracing",
-            {
-                {"FILE", "", "", any_text(), "", "a scene in .toml, or a .vdb that is framed and lit",
-                 true},
-                {"-o, --output", "OUT.exr|OUT.png", "", any_text(), "", "where the picture goes", true},
-                {"--geometry", "", "", flag(), "",
-                 "traces the geometry of objects that have some, not their volumes"},
-                {"--level", "N", "(by the footprint of each ray)", integer(0, 1000), "",
-                 "of detail everywhere; 0 = the finest"},
-                {"--level-offset", "X", "0", number(-8, 8), "levels",
-                 "added to what the footprint asks for; below 0 is finer"},
-                {"--transport", "MODEL", "(the scene's, or product)", one_of(transport_names()), "",
-                 "how voxels along a ray are put together"},
-                {"--samples", "N", "(the scene's, or 64)", integer(1, 1'000'000'000), "per pixel",
-                 "stops there"},
-                {"--time", "T", "", positive(), "seconds", "stops after the pass that ends then"},
-                {"--noise", "E", "", positive(), "of the mean luminance",
-                 "stops when the pixels' root mean square error is below it"},
-                {"--size", "WxH", "(the scene's, or 512x512)", numbers(2, 2, 1, 65536, 'x'), "pixels",
-                 "of the picture"},
-                {"--exposure", "E", "0", number(-kInf, kInf), "stops", "of a .png: times 2^E"},
-                {"--resume", "", "", flag(), "",
-                 "goes on from OUTPUT.checkpoint, which a stopped render leaves"},
-            },
-            run_render};
+    return {
+        "render",
+        "a picture of a scene file or a .vdb by path tracing",
+        {
+            {"FILE", "", "", any_text(), "", "a scene in .toml, or a .vdb that is framed and lit",
+             true},
+            {"-o, --output", "OUT.exr|OUT.png", "", any_text(), "", "where the picture goes", true},
+            {"--geometry", "", "", flag(), "",
+             "traces the geometry of objects that have some, not their volumes"},
+            {"--level", "N", "(by the footprint of each ray)", integer(0, 1000), "",
+             "of detail everywhere; 0 = the finest"},
+            {"--level-offset", "X", "0", number(-8, 8), "levels",
+             "added to what the footprint asks for; below 0 is finer"},
+            {"--transport", "MODEL", "(the scene's, or product)", one_of(transport_names()), "",
+             "how voxels along a ray are put together"},
+            {"--samples", "N", "(the scene's, or 64)", integer(1, 1'000'000'000), "per pixel",
+             "stops there"},
+            {"--time", "T", "", positive(), "seconds", "stops after the pass that ends then"},
+            {"--noise", "E", "", positive(), "of the mean luminance",
+             "stops when the pixels' root mean square error is below it"},
+            {"--size", "WxH", "(the scene's, or 512x512)", numbers(2, 2, 1, 65536, 'x'), "pixels",
+             "of the picture"},
+            {"--exposure", "E", "0", number(-kInf, kInf), "stops", "of a .png: times 2^E"},
+            {"--resume", "", "", flag(), "",
+             "goes on from OUTPUT.checkpoint, which a stopped render leaves"},
+        },
+        run_render};
 }
 
 } // namespace heddle::cli

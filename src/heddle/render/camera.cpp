@@ -57,12 +57,12 @@ CameraView frame(const Bounds& box, Vec3d from, Vec3d up, double aspect) {
     out.target = (box.lo + box.hi) * 0.5;
     double away = 1e-6 * length(box.size()); // along `back` until all corners are in view
     for (int c = 0; c < 8; ++c) {
-        const Vec3d corner = Vec3d{(c & 1) != 0 ? box.hi.x : box.lo.x,
-                                   (c & 2) != 0 ? box.hi.y : box.lo.y,
-                                   (c & 4) != 0 ? box.hi.z : box.lo.z} -
-                             out.target;
-        const double aside = std::max(std::fabs(dot(corner, right)) / aspect,
-                                      std::fabs(dot(corner, top)));
+        const Vec3d corner =
+            Vec3d{(c & 1) != 0 ? box.hi.x : box.lo.x, (c & 2) != 0 ? box.hi.y : box.lo.y,
+                  (c & 4) != 0 ? box.hi.z : box.lo.z} -
+            out.target;
+        const double aside =
+            std::max(std::fabs(dot(corner, right)) / aspect, std::fabs(dot(corner, top)));
         away = std::max(away, dot(corner, back) + aside / tall);
     }
     out.eye = out.target + back * (away > 0.0 ? away : 1.0);

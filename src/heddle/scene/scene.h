@@ -21,7 +21,7 @@ struct SceneLight {
                            ///< intensity (point); multiplies an environment's texels
     std::string image;     ///< environment: path of an .exr, .png or .jpg, width twice its height
     double turn_deg = 0.0; ///< environment: about the up axis
-    Vec3d direction{0, 0, -1}; ///< directional: the way light travels
+    Vec3d direction{0, 0, -1}; ///< directional: the way light travels; unit
     Vec3d position;            ///< point; area: a corner
     Vec3d edge_u{1, 0, 0};     ///< area: a parallelogram, lit on the side of cross(edge_u, edge_v)
     Vec3d edge_v{0, 1, 0};
@@ -66,7 +66,7 @@ struct SceneObject {
 
 /// A whole scene, as a file describes it: paths resolved, nothing loaded.
 struct Scene {
-    std::vector<SceneObject> objects;
+    std::vector<SceneObject> objects;                 ///< what is included first; a file's by name
     std::map<std::string, ScatterMaterial> materials; ///< by name
     std::vector<SceneLight> lights;
     std::optional<SceneCamera> camera; ///< none: framed
@@ -77,8 +77,11 @@ struct Scene {
 
 /// Reads a scene file (docs/scene.md).
 ///
-/// Every problem of the file and of what it includes is found before it throws.
-/// @throws Error  NotFound; BadFile: all problems, one a line, each "path:line: ..."
+/// Every problem of the file and of what it includes is found before it throws, but what follows a
+/// line that is no TOML in its file. Nothing but scene files is opened; that the others are there is
+/// checked. Whether a transport of that name exists the renderer says.
+/// @throws Error  NotFound: no such file; BadFile: all problems, one a line ('\n' between them), each
+///                "path:line: what; what to do"
 [[nodiscard]] Scene read_scene(const std::string& path);
 
 } // namespace heddle

@@ -44,7 +44,8 @@ std::shared_ptr<EnvironmentMap> read_map(const std::string& path) {
                     "give a latitude-longitude picture", {.path = path});
     }
     for (const Vec3f& c : map->radiance) {
-        const bool usable = c.x >= 0.0f && c.y >= 0.0f && c.z >= 0.0f && std::isfinite(c.x + c.y + c.z);
+        const bool usable =
+            c.x >= 0.0f && c.y >= 0.0f && c.z >= 0.0f && std::isfinite(c.x + c.y + c.z);
         if (usable) continue;
         throw Error(ErrorCode::BadFile, "has a texel that is negative or not finite",
                     "clean it up first", {.path = path});

@@ -25,7 +25,8 @@ double since(Clock::time_point start) {
 constexpr double kSaveEvery = 20.0; // seconds between pictures written on the way
 
 /// Samples per pixel that the picture should have after the next pass.
-std::uint32_t next_target(std::uint32_t done, const RenderJob& job, double spent, double in_passes) {
+std::uint32_t
+next_target(std::uint32_t done, const RenderJob& job, double spent, double in_passes) {
     std::uint64_t target = std::max<std::uint64_t>(1, std::uint64_t{2} * done);
     target = std::min(target, static_cast<std::uint64_t>(job.samples));
     if (done == 0) return static_cast<std::uint32_t>(target);
@@ -46,7 +47,8 @@ bool is_done(const Picture& picture, std::uint32_t samples, const RenderJob& job
 }
 
 bool is_half(const std::string& channel) {
-    return channel != "depth" && channel != "samples" && channel != "variance" && channel != "material";
+    return channel != "depth" && channel != "samples" && channel != "variance" &&
+           channel != "material";
 }
 
 } // namespace
@@ -96,11 +98,10 @@ RenderOutcome render_to_file(Stage& stage,
     Clock::time_point saved = Clock::now();
     while (!is_done(picture, samples, job, since(start))) {
         const std::uint32_t target =
-            next_target(samples - static_cast<std::uint32_t>(outcome.resumed_from), job, since(start),
-                        outcome.render_seconds) +
+            next_target(samples - static_cast<std::uint32_t>(outcome.resumed_from), job,
+                        since(start), outcome.render_seconds) +
             static_cast<std::uint32_t>(outcome.resumed_from);
-        const std::uint32_t until =
-            std::min(target, static_cast<std::uint32_t>(job.samples));
+        const std::uint32_t until = std::min(target, static_cast<std::uint32_t>(job.samples));
         const Clock::time_point began = Clock::now();
         try {
             pass(picture, samples, until);

@@ -11,21 +11,21 @@ namespace heddle {
 
 /// When a picture is finished, and where it goes.
 struct RenderJob {
-    std::string output;         ///< .exr or .png
-    std::int64_t samples = 64;  ///< per pixel: stops there
-    double seconds = 0.0;       ///< 0: no limit; checked between passes
-    double noise = 0.0;         ///< 0: no limit; Picture::noise
-    double exposure = 0.0;      ///< stops, of a .png
-    bool all_channels = true;   ///< of an .exr
-    bool resume = false;        ///< go on from OUTPUT.checkpoint
+    std::string output;           ///< .exr or .png
+    std::int64_t samples = 64;    ///< per pixel: stops there
+    double seconds = 0.0;         ///< 0: no limit; checked between passes
+    double noise = 0.0;           ///< 0: no limit; Picture::noise
+    double exposure = 0.0;        ///< stops, of a .png
+    bool all_channels = true;     ///< of an .exr
+    bool resume = false;          ///< go on from OUTPUT.checkpoint
     std::uint64_t scene_hash = 0; ///< a checkpoint of another one is refused
-    std::string command;        ///< goes into the picture
+    std::string command;          ///< goes into the picture
 };
 
 /// What a job did.
 struct RenderOutcome {
-    std::int64_t samples = 0;       ///< per pixel
-    std::int64_t resumed_from = 0;  ///< samples that the checkpoint held
+    std::int64_t samples = 0;      ///< per pixel
+    std::int64_t resumed_from = 0; ///< samples that the checkpoint held
     double noise = 0.0;
     double first_picture_seconds = 0.0; ///< until a coarse picture stood in `output`
     double render_seconds = 0.0;        ///< in passes

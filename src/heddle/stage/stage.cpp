@@ -50,7 +50,8 @@ Stage::Stage(const Scene& scene, const StageOptions& options, Progress& progress
         more = false;
         for (OpenVolume& v : open_) {
             const auto level = static_cast<std::size_t>(std::max(v.next, 0));
-            if (v.next < 0 || (v.pyramid[v.pyramid.size() - 1] && v.voxels[level] > kCoarseVoxels)) {
+            if (v.next < 0 ||
+                (v.pyramid[v.pyramid.size() - 1] && v.voxels[level] > kCoarseVoxels)) {
                 continue;
             }
             v.pyramid[level] = std::make_shared<VolumeLevel>(*read_vdb(v.path, v.next));
@@ -87,9 +88,8 @@ void Stage::open_volume(const SceneObject& object, const Scene& scene) {
     open_.push_back(std::move(volume));
 }
 
-std::uint32_t Stage::material_of(const Scene& scene,
-                                 const SceneObject& object,
-                                 const Material& material) {
+std::uint32_t
+Stage::material_of(const Scene& scene, const SceneObject& object, const Material& material) {
     std::string name = object.name + "/" + material.name;
     ScatterMaterial scatter = scatter_material_of(material);
     for (const std::string& key : {material.name, std::string("*")}) {
@@ -181,7 +181,8 @@ void Stage::choose_levels(const Scene& scene) {
             const double width = static_cast<double>(middle.width) +
                                  static_cast<double>(middle.spread) * away * edge;
             const double voxel = volume.voxel_size * scale_of(instance);
-            const int needed = width > 0.0 ? static_cast<int>(std::floor(std::log2(width / voxel))) : 0;
+            const int needed =
+                width > 0.0 ? static_cast<int>(std::floor(std::log2(width / voxel))) : 0;
             volume.finest_wanted = std::clamp(needed, 0, volume.finest_wanted);
         }
         if (scene.integrator.level >= 0) {

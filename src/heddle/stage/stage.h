@@ -54,9 +54,8 @@ private:
     void place_camera(const Scene& scene);
     void choose_levels(const Scene& scene);
     void rebuild_volumes();
-    [[nodiscard]] std::uint32_t material_of(const Scene& scene,
-                                            const SceneObject& object,
-                                            const Material& material);
+    [[nodiscard]] std::uint32_t
+    material_of(const Scene& scene, const SceneObject& object, const Material& material);
 
     PathScene scene_;
     std::vector<OpenVolume> open_;

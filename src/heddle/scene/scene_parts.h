@@ -1,0 +1,31 @@
+#pragma once
+
+#include <heddle/scene/scene.h>
+#include <heddle/scene/table_reader.h>
+
+#include <string>
+#include <vector>
+
+/// One reader for each kind of table in a scene file; docs/scene.md lists their keys. What is wrong
+/// goes to the reader's problems; the result is of use when there are none.
+namespace heddle::scene_form {
+
+[[nodiscard]] SceneCamera read_camera(TableReader& reader);
+void read_film(TableReader& reader, Scene& scene);
+[[nodiscard]] SceneIntegrator read_integrator(TableReader& reader);
+[[nodiscard]] SceneLight read_light(TableReader& reader);
+[[nodiscard]] ScatterMaterial read_material(TableReader& reader);
+
+/// The map of an object or instance: matrix, or scale, then rotate, then translate.
+[[nodiscard]] Affine read_transform(TableReader& reader);
+
+/// A material that an object names, to be looked up when all files are read.
+struct MaterialUse {
+    Place place;
+    std::string name;
+};
+
+[[nodiscard]] SceneObject
+read_object(TableReader& reader, const std::string& name, std::vector<MaterialUse>& uses);
+
+} // namespace heddle::scene_form

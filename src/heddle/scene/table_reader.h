@@ -1,0 +1,98 @@
+#pragma once
+
+#include <heddle/base/vec.h>
+#include <heddle/scene/problems.h>
+
+#include <toml++/toml.h>
+
+#include <initializer_list>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace heddle::scene_form {
+
+/// Which numbers a key takes. The ends of the default are a float's, so that what is read can be
+/// stored as one.
+struct Range {
+    double least = -static_cast<double>(std::numeric_limits<float>::max());
+    double most = static_cast<double>(std::numeric_limits<float>::max());
+    bool above = false; ///< `least` itself is not allowed
+    bool below = false; ///< `most` itself is not allowed
+
+    [[nodiscard]] bool holds(double x) const; ///< false for NaN
+};
+inline constexpr Range kAnyNumber{};
+inline constexpr Range kPositive{.least = 0.0, .above = true};
+inline constexpr Range kNotNegative{.least = 0.0};
+inline constexpr Range kUnit{.least = 0.0, .most = 1.0};
+
+/// Reads a table of a scene file: every function takes one key. A value of the wrong type or out of
+/// range becomes a problem and leaves `out` as it was, as an absent key does. Keys that nothing
+/// asked for are problems when the reader ends (`finish`), with the nearest of those asked for.
+class TableReader {
+public:
+    /// @param what  for messages: "a light of kind 'point'"
+    TableReader(const toml::table& table, Place place, std::string what, Problems& problems);
+
+    [[nodiscard]] bool has(std::string_view key) const { return table_.contains(key); }
+    [[nodiscard]] const Place& place() const { return place_; }
+    [[nodiscard]] Problems& problems() const { return problems_; }
+    /// Of the key, or of the table where it has none.
+    [[nodiscard]] Place place_of(std::string_view key) const;
+    void set_what(std::string what) { what_ = std::move(what); }
+    void problem(std::string_view key, const std::string& what, const std::string& fix) const;
+    /// Adds a problem unless the key is there.
+    void require(std::string_view key, const std::string& fix) const;
+
+    void number(std::string_view key, double& out, const Range& range = kAnyNumber);
+    void number(std::string_view key, float& out, const Range& range = kAnyNumber);
+    /// The key is in degrees, `out` in radians.
+    void angle(std::string_view key, float& out, const Range& range_deg);
+    void integer(std::string_view key, std::int64_t& out, std::int64_t least, std::int64_t most);
+    void integer(std::string_view key, int& out, std::int64_t least, std::int64_t most);
+    void vector(std::string_view key, Vec3d& out);
+    /// A number, which stands for three, or three.
+    void color(std::string_view key, Vec3f& out, const Range& range = kNotNegative);
+    /// `counts`: how many numbers are allowed; a bare number is a list of one.
+    [[nodiscard]] std::optional<std::vector<double>> numbers(std::string_view key,
+                                                             std::initializer_list<int> counts,
+                                                             const Range& range = kAnyNumber);
+    void text(std::string_view key, std::string& out);
+    /// A path, made relative to the scene file; a problem where no file is there, or where it ends
+    /// in none of `suffixes` (lower case, with the dot; empty: any).
+    void
+    path(std::string_view key, std::string& out, std::initializer_list<std::string_view> suffixes);
+    /// Index of the name among `names`.
+    [[nodiscard]] std::optional<std::size_t> choose(std::string_view key,
+                                                    const std::vector<std::string_view>& names);
+    [[nodiscard]] const toml::table* table(std::string_view key);
+    /// The tables of an array of tables.
+    [[nodiscard]] std::vector<const toml::table*> tables(std::string_view key);
+    /// Texts of an array of texts.
+    [[nodiscard]] std::vector<std::string> texts(std::string_view key);
+
+    /// Once, last: the keys that nothing asked for become problems.
+    void finish() const;
+
+private:
+    const toml::node* take(std::string_view key);
+    void wrong_type(std::string_view key, const toml::node& node, const std::string& needs) const;
+    [[nodiscard]] bool in_range(std::string_view key, double x, const Range& range) const;
+
+    const toml::table& table_;
+    Place place_;
+    std::string what_;
+    Problems& problems_;
+    std::vector<std::string> known_;
+};
+
+/// Where a node stands.
+[[nodiscard]] Place place_of(const toml::node& node, const std::string& path);
+
+/// `text` relative to the folder of the scene file `from`.
+[[nodiscard]] std::string resolve_path(const std::string& text, const std::string& from);
+
+} // namespace heddle::scene_form
