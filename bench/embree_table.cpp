@@ -1,5 +1,5 @@
 // Traced yarns: bytes per segment, build rate, rays per second of one thread.
-//   heddle_embree_table FILE.bcc YARN [fibers] [yarn radius] [curves of the file] [GiB]
+//   heddle_embree_table FILE.bcc YARN [fibers] [yarn radius] [curves of the file] [GiB] [smooth]
 #include <heddle/base/memory.h>
 #include <heddle/base/parallel.h>
 #include <heddle/base/random.h>
@@ -26,6 +26,7 @@ public:
     void begin(std::string_view stage, std::string_view, std::int64_t total) override {
         if (stage == "fibers") segments += total;
         if (stage == "tree") tree = now();
+        if (stage == "tree") segments = total;
     }
     std::int64_t segments = 0;
     double tree = 0.0;
@@ -44,6 +45,7 @@ Geometry load(int argc, char** argv) {
     }
     YarnFile yarn = read_yarn(argv[2]);
     if (argc > 3 && std::atoi(argv[3]) > 0) set_fiber_count(yarn.yarn, std::atoi(argv[3]));
+    if (argc > 7) yarn.yarn.flyaways = false;
     geometry.yarns.push_back(yarn.yarn);
     set.yarn = 0;
     return geometry;

@@ -44,7 +44,7 @@ struct EmbreeOptions {
 /// that starts on the far side of `normal`, inside the fiber, leaves it without a hit; what passes
 /// through a fiber starts at -offset, what is reflected at +offset.
 ///
-/// Radii of cubic curves are interpolated with the curve's own basis, between points linearly for
+/// Ends of cubic curves are open, those of linear ones round. Radii of cubic curves are interpolated with the curve's own basis, between points linearly for
 /// linear ones. Colours of points multiply the albedo, span by span as in the voxelizer.
 ///
 /// @param objects    may be empty, as their geometry may

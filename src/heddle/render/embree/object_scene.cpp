@@ -8,9 +8,9 @@
 namespace heddle {
 namespace {
 
-/// What a segment takes at the height of the build: control point, index, tree and the builder's
-/// lists (measured on flame_ribbing_pattern.bcc; see the room's commit).
-constexpr std::int64_t kBytesPerSegment = 180;
+/// What a fiber's cubic takes: control points and index 52, tree 54 (the pattern flame_ribbing with 30
+/// fibers; the builder's lists are gone before the tree is full), and a tenth for flyaway hairs.
+constexpr std::int64_t kBytesPerSegment = 118;
 
 /// A grid so coarse that the source cuts no span into parts.
 LatticeUnits units_of(const Geometry& geometry) {
@@ -54,9 +54,15 @@ ObjectScene::ObjectScene(EmbreeDevice& device,
     device_.own(surfaces_.byte_count());
     for (std::uint32_t m = 0; m < geometry_->meshes.size(); ++m) attach_mesh(m);
     add_curves(progress);
-    progress.begin("tree", "parts", 1);
+    std::int64_t primitives = 0;
+    for (const Part& part : parts_) {
+        primitives +=
+            static_cast<std::int64_t>(part.curve ? part.curves.segments.size()
+                                                 : geometry_->meshes[part.mesh].triangles.size());
+    }
+    progress.begin("tree", "primitives", primitives);
     scene_.commit(device_, progress);
-    progress.advance(1);
+    progress.advance(primitives);
 }
 
 void ObjectScene::add_curves(Progress& progress) {

@@ -11,50 +11,43 @@
 namespace heddle {
 namespace {
 
-/// Pieces of a hair: two a span of the yarn that it lies over, and three a radian of its turn.
-int piece_count(const YarnPath& path, const FlyawayHair& hair) {
+/// Cubics of a hair: about one a span of the yarn that it lies over, and one a radian of its turn.
+int cubic_count(const YarnPath& path, const FlyawayHair& hair) {
     const double dt = hair.t1 - hair.t0;
     const double spans =
         std::abs(hair.ze) * dt / path.total() * static_cast<double>(path.span_count());
-    const double pieces = std::ceil(2.0 * spans + 3.0 * std::abs(hair.pe) * dt);
-    return static_cast<int>(std::clamp(pieces, 2.0, 64.0));
+    return static_cast<int>(std::clamp(std::ceil(spans + std::abs(hair.pe) * dt), 1.0, 64.0));
 }
 
 RoundPoint hair_at(const YarnPath& path, std::size_t ply, const FlyawayHair& hair, double q) {
     const double s = std::clamp(hair.z0 + hair.ze * q, 0.0, path.total());
-    const YarnPlace place =
-        path.at(std::min(path.knot_of_length(s), static_cast<double>(path.span_count()) - 1e-9));
+    const YarnPlace place = path.at(path.knot_of_length(s));
     const PlyPlace at = path.ply(place, ply);
     const double angle = hair.p0 + hair.pe * q;
     const double r = hair.r0 + hair.re * q;
     const double offset = static_cast<double>(path.yarn().ply_offset);
-    const Vec3f p =
-        to_float(at.center + (offset + r * std::cos(angle)) * at.u + (r * std::sin(angle)) * at.v);
-    return {p.x, p.y, p.z,
-            static_cast<float>(static_cast<double>(path.table().fiber_radius) * place.scale)};
+    return round_point(at.center + (offset + r * std::cos(angle)) * at.u +
+                           (r * std::sin(angle)) * at.v,
+                       static_cast<double>(path.table().fiber_radius) * place.scale);
 }
 
-/// Through the next point, as far beyond as the one before: an end's phantom.
-RoundPoint beyond(const RoundPoint& end, const RoundPoint& before) {
-    return {2.0f * end.x - before.x, 2.0f * end.y - before.y, 2.0f * end.z - before.z, end.radius};
-}
-
-/// Hairs as Catmull-Rom curves.
+/// Hairs as Bezier cubics.
 struct HairCurves {
     std::vector<RoundPoint> points;
     std::vector<std::uint32_t> segments;
 
     void add(const YarnPath& path, std::size_t ply, const FlyawayHair& hair) {
-        const int count = piece_count(path, hair);
+        const int count = cubic_count(path, hair);
         const std::size_t base = points.size();
-        points.emplace_back();
-        for (int j = 0; j <= count; ++j) {
-            const double q = hair.t0 + (hair.t1 - hair.t0) * j / count;
+        for (int j = 0; j <= 3 * count; ++j) {
+            const double q = hair.t0 + (hair.t1 - hair.t0) * j / (3.0 * count);
             points.push_back(hair_at(path, ply, hair, q));
-            if (j < count) segments.push_back(static_cast<std::uint32_t>(points.size() - 2));
         }
-        points[base] = beyond(points[base + 1], points[base + 2]);
-        points.push_back(beyond(points.back(), points[points.size() - 2]));
+        for (int j = 0; j < count; ++j) {
+            const std::size_t first = base + 3 * static_cast<std::size_t>(j);
+            to_bezier(&points[first]);
+            segments.push_back(static_cast<std::uint32_t>(first));
+        }
     }
 };
 
@@ -75,7 +68,7 @@ RoundCurves yarn_hairs(const FiberSource& source, YarnSet yarns, Progress& progr
     const CurveSet& set = source.geometry().curves[yarns.set];
     const YarnType& yarn = *source.yarn_of(yarns.set);
     RoundCurves out;
-    out.basis = RoundBasis::CatmullRom;
+    out.basis = RoundBasis::Bezier;
     out.material = set.material;
     out.runs.push_back({});
     if (!yarn.flyaways || !(yarn.hair_density > 0.0f) || yarn.model != YarnModel::Procedural) {
@@ -85,10 +78,12 @@ RoundCurves yarn_hairs(const FiberSource& source, YarnSet yarns, Progress& progr
     for (std::size_t c = 0; c < set.curve_count(); ++c) {
         first.push_back(first.back() + set.span_count(c));
     }
+    progress.begin("flyaways", "yarns", static_cast<std::int64_t>(set.curve_count()));
     std::vector<HairCurves> hairs(set.curve_count());
     parallel_chunks(set.curve_count(), 1, [&](std::size_t c, std::size_t) {
         progress.check();
         if (first[c + 1] > first[c]) hairs[c] = hairs_of(source, first[c]);
+        progress.advance(1);
     });
     std::size_t points = 0;
     for (const HairCurves& h : hairs) points += h.points.size();
@@ -97,6 +92,7 @@ RoundCurves yarn_hairs(const FiberSource& source, YarnSet yarns, Progress& progr
                     str("flyaway hairs have ", points, " control points (limit 2^32 - 1)"),
                     "lower the yarn's hair density");
     }
+    out.points.reserve(points);
     for (HairCurves& h : hairs) {
         const auto base = static_cast<std::uint32_t>(out.points.size());
         out.points.insert(out.points.end(), h.points.begin(), h.points.end());

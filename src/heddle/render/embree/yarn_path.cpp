@@ -40,7 +40,7 @@ YarnPath::YarnPath(const FiberSource& source, std::uint64_t first_span)
 
 YarnPlace YarnPath::at(double t) const {
     const auto count = static_cast<double>(spans_.size());
-    if (closed()) t -= std::floor(t / count) * count; // whole rounds are whole turns of all
+    if (closed() && t >= count) t -= count; // whole rounds are whole turns of all
     const double k = std::clamp(std::floor(t), 0.0, count - 1.0);
     const Span& span = spans_[static_cast<std::size_t>(k)];
     const YarnCourse& course = span.course;
