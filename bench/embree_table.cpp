@@ -51,7 +51,7 @@ Geometry load(int argc, char** argv) {
     return geometry;
 }
 
-/// Rays across the object's box: parallel to z from a plane before it, or from random points in it.
+/// Rays across the object's box: parallel to z in the order of pixels, or from random points in it.
 void shoot(const SurfaceScene& scene, const Bounds& box, bool inside) {
     StreamRandom random{1};
     constexpr int kRays = 1000000;
@@ -68,7 +68,8 @@ void shoot(const SurfaceScene& scene, const Bounds& box, bool inside) {
                           random.uniform() - 0.5f};
             ray.direction = normalize(d);
         } else {
-            ray.origin.z = box.hi.z + size.z;
+            const Vec3d pixel{i % 1000 / 1e3, i / 1000 / 1e3, 2.0};
+            ray.origin = box.lo + (pixel + u * Vec3d{1e-3, 1e-3, 0.0}) * size;
         }
         SurfaceHit hit;
         hits += scene.intersect(ray, hit) ? 1 : 0;

@@ -9,8 +9,10 @@
 namespace heddle {
 namespace {
 
-/// A few roundings of a position, of what it is made of.
-constexpr float kRoundings = 4e-6f;
+/// How far a hit may lie off its surface, as a share of its position and of its distance: some
+/// roundings to single precision (6e-8), and of Embree's search along a curve.
+constexpr float kOffPosition = 2e-6f;
+constexpr float kOffDistance = 2e-7f;
 
 /// One placed object.
 struct Placed {
@@ -105,9 +107,9 @@ public:
           top_(device_) {
         for (const TracedObject& traced : traced_) check_object(traced, materials_.size());
         for (const TracedObject& traced : traced_) {
-            objects_.emplace_back(device_, traced.geometry, options, progress);
+            const ObjectScene& object = object_of(traced.geometry, options, progress);
             for (const Affine& a : traced.instances) {
-                placed_.push_back({&objects_.back(), &traced, a, inverse(a)});
+                placed_.push_back({&object, &traced, a, inverse(a)});
                 attach(placed_.back());
             }
         }
@@ -120,6 +122,9 @@ public:
     [[nodiscard]] std::int64_t byte_count() const override { return device_.byte_count(); }
 
 private:
+    const ObjectScene& object_of(const std::shared_ptr<const Geometry>& geometry,
+                                 const EmbreeOptions& options,
+                                 Progress& progress);
     void attach(const Placed& placed);
     [[nodiscard]] bool enter(const Ray& ray, double& t) const;
     void fill(const Ray& ray, const RTCHit& found, SurfaceHit& hit) const;
@@ -135,6 +140,16 @@ private:
     EmbreeScene top_;
     RTCBounds bounds_{};
 };
+
+// What several objects share is built once.
+const ObjectScene& TracedScene::object_of(const std::shared_ptr<const Geometry>& geometry,
+                                          const EmbreeOptions& options,
+                                          Progress& progress) {
+    for (const ObjectScene& object : objects_) {
+        if (&object.geometry() == geometry.get()) return object;
+    }
+    return objects_.emplace_back(device_, geometry, options, progress);
+}
 
 void TracedScene::attach(const Placed& placed) {
     const RTCGeometry instance = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE);
@@ -213,7 +228,7 @@ void TracedScene::fill(const Ray& ray, const RTCHit& found, SurfaceHit& hit) con
     if (dot(hit.normal, viewer) < 0.0f) hit.normal = hit.normal * -1.0f;
     const Vec3d p = ray.at(static_cast<double>(hit.t));
     const double size = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    hit.offset = kRoundings * (static_cast<float>(size) + hit.t);
+    hit.offset = kOffPosition * static_cast<float>(size) + kOffDistance * hit.t;
     if (sample.curve) {
         fill_curve(normalize(placed.direction(sample.surface.tangent)), hit);
     } else {

@@ -39,23 +39,42 @@ TEST(EmbreeScene, RaysMeetACylinderWhereItIs) {
     }
 }
 
-TEST(EmbreeScene, WhatStartsInsideAFiberLeavesItUnhindered) {
+// From the hit, what is reflected and what passes through meet the fiber no more.
+void expect_free(const SurfaceScene& scene, const Ray& ray, const SurfaceHit& hit, Vec3d away) {
+    const Vec3d at = ray.at(static_cast<double>(hit.t));
+    const Vec3d step = to_double(hit.normal) * static_cast<double>(hit.offset);
+    Ray through = ray;
+    through.origin = at - step;
+    EXPECT_FALSE(scene.occluded(through));
+    Ray back = ray_to(at + step, at + step + away);
+    EXPECT_FALSE(scene.occluded(back));
+}
+
+void expect_free(Basis basis, Vec3d middle, float radius, double distance) {
+    const Vec3f half{1, 0, 0};
+    const auto scene =
+        trace(straight_fiber(basis, to_float(middle) - half, to_float(middle) + half, radius));
     StreamRandom random{3};
+    int hits = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const Vec3d d = draw_direction(random);
+        if (std::abs(d.x) > 0.9) continue; // leaves the scene by the fiber's ends
+        const Vec3d aim = middle + 0.5 * static_cast<double>(radius) * draw_direction(random);
+        const Ray ray = ray_to(middle + distance * d, aim);
+        SurfaceHit hit;
+        if (!scene->intersect(ray, hit)) continue;
+        ++hits;
+        EXPECT_LT(hit.offset, 0.1f * radius);
+        expect_free(*scene, ray, hit, d);
+    }
+    EXPECT_GT(hits, 800);
+}
+
+TEST(EmbreeScene, WhatStartsAtAHitMeetsTheFiberNoMore) {
     for (const Basis basis : kBases) {
-        const auto scene = trace(straight_fiber(basis, {-1, 0, 0}, {1, 0, 0}, 0.1f));
-        for (int i = 0; i < 500; ++i) {
-            const Vec3d d = draw_direction(random);
-            SurfaceHit hit;
-            if (!scene->intersect(ray_to(2.0 * d, {0.1, 0.02, -0.03}), hit)) continue;
-            Ray through = ray_to(2.0 * d, {0.1, 0.02, -0.03});
-            through.origin = through.at(static_cast<double>(hit.t)) -
-                             to_double(hit.normal) * static_cast<double>(hit.offset);
-            EXPECT_FALSE(scene->occluded(through));
-            Ray back = ray_to(through.origin, 3.0 * d);
-            back.origin =
-                back.origin + to_double(hit.normal) * 2.0 * static_cast<double>(hit.offset);
-            EXPECT_FALSE(scene->occluded(back));
-        }
+        SCOPED_TRACE(static_cast<int>(basis));
+        expect_free(basis, {}, 0.1f, 2.0);
+        expect_free(basis, {40.0, 20.0, -10.0}, 0.00465f, 60.0); // a sweater's fiber
     }
 }
 
@@ -188,6 +207,25 @@ TEST(EmbreeScene, ARotatedInstanceIsRotatedInput) {
         EXPECT_GT(std::abs(dot(a.scatterer.tangent, b.scatterer.tangent)), 0.99f);
     }
     EXPECT_GT(hits, 300);
+}
+
+TEST(EmbreeScene, ObjectsMayShareAGeometryAndDifferInMaterial) {
+    const auto fiber = std::make_shared<const Geometry>(
+        straight_fiber(Basis::CatmullRom, {-1, 0, 0}, {1, 0, 0}, 0.1f));
+    const Affine beside{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 1, 0}};
+    const TracedObject objects[] = {{fiber, {Affine{}}, {1}}, {fiber, {beside}, {0}}};
+    std::vector<ScatterMaterial> materials(2);
+    materials[1].albedo = {0.1f, 0.2f, 0.3f};
+    Progress silent;
+    const auto scene = build_embree_scene(objects, materials, silent);
+    SurfaceHit hit;
+    ASSERT_TRUE(scene->intersect(ray_to({0, 0, 1}, {}), hit));
+    EXPECT_EQ(hit.object, 0u);
+    EXPECT_EQ(hit.material, 1u);
+    EXPECT_EQ(hit.scatterer.material.albedo, materials[1].albedo);
+    ASSERT_TRUE(scene->intersect(ray_to({0, 1, 1}, {0, 1, 0}), hit));
+    EXPECT_EQ(hit.object, 1u);
+    EXPECT_EQ(hit.material, 0u);
 }
 
 TEST(EmbreeScene, NormalsOfAStretchedInstanceStayAtRightAnglesToIt) {

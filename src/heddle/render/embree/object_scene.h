@@ -38,6 +38,7 @@ public:
     ObjectScene(const ObjectScene&) = delete;
     ObjectScene& operator=(const ObjectScene&) = delete;
 
+    [[nodiscard]] const Geometry& geometry() const { return *geometry_; }
     [[nodiscard]] RTCScene scene() const { return scene_.get(); }
     [[nodiscard]] ObjectSample sample(const ObjectPoint& at) const;
 
