@@ -22,8 +22,8 @@ struct TracedObject {
 /// How explicit geometry is laid out.
 struct EmbreeOptions {
     std::uint64_t seed = 0; ///< of yarns' fibers: as VoxelizeOptions::seed, for the same fibers
-    /// Largest distance of a traced fiber from the yarn model's, in fiber radii, over nine tenths of
-    /// its length. Cubics per span of the yarn follow from it, and fewer where memory is short.
+    /// Largest distance of a traced fiber from the yarn model's, in fiber radii, over nine tenths
+    /// of its length. Cubics per span of the yarn follow from it, and fewer where memory is short.
     float tolerance = 0.03f;
     std::int64_t memory_bytes = std::int64_t{12} << 30; ///< most that the scene may take
 };
@@ -44,14 +44,14 @@ struct EmbreeOptions {
 /// that starts on the far side of `normal`, inside the fiber, leaves it without a hit; what passes
 /// through a fiber starts at -offset, what is reflected at +offset.
 ///
-/// Ends of cubic curves are open, those of linear ones round. Radii of cubic curves are interpolated with the curve's own basis, between points linearly for
-/// linear ones. Colours of points multiply the albedo, span by span as in the voxelizer.
+/// Ends of cubic curves are open, those of linear ones round. Radii are interpolated with the
+/// curve's own basis. Colours of points multiply the albedo, span by span as in the voxelizer.
 ///
 /// @param objects    may be empty, as their geometry may
 /// @param materials  of the scene
 /// @param progress   reported to and asked while the scene is built
-/// @throws Error  InvalidArgument: an index out of range, a singular or infinite instance, an object
-///                without instances; Unsupported: a material that displaces by a height map;
+/// @throws Error  InvalidArgument: an index out of range, a singular or infinite instance, an
+///                object without instances; Unsupported: a material that displaces by a height map;
 ///                OutOfMemory: more than options.memory_bytes; Cancelled
 [[nodiscard]] std::unique_ptr<SurfaceScene>
 build_embree_scene(std::span<const TracedObject> objects,
