@@ -78,7 +78,7 @@ private:
     [[nodiscard]] bool next_event(const Ray& ray, Event& event) {
         bool found = false;
         Ray open = ray;
-        if (SurfaceHit hit; scene_.surfaces && scene_.surfaces->intersect(ray, hit)) {
+        if (TracedHit hit; scene_.surfaces && scene_.surfaces->intersect(ray, hit)) {
             event = {hit.t, hit.scatterer, hit.material, 0.0f, hit.normal, hit.offset};
             open.t_max = hit.t;
             found = true;

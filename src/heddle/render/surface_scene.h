@@ -1,6 +1,7 @@
 #pragma once
 
 #include <heddle/base/vec.h>
+#include <heddle/geom/bounds.h>
 #include <heddle/render/ray.h>
 #include <heddle/scatter/scatterer.h>
 
@@ -9,7 +10,7 @@
 namespace heddle {
 
 /// Where a ray meets explicit geometry.
-struct SurfaceHit {
+struct TracedHit {
     float t = 0.0f;           ///< scene units
     Scatterer scatterer;      ///< with maps looked up; `axis` on the ray's side for surfaces
     Vec3f normal;             ///< geometric, unit, on the ray's side
@@ -24,9 +25,11 @@ class SurfaceScene {
 public:
     virtual ~SurfaceScene() = default;
     /// The nearest hit before ray.t_max; false where there is none.
-    [[nodiscard]] virtual bool intersect(const Ray& ray, SurfaceHit& hit) const = 0;
+    [[nodiscard]] virtual bool intersect(const Ray& ray, TracedHit& hit) const = 0;
     /// True where anything is met before ray.t_max.
     [[nodiscard]] virtual bool occluded(const Ray& ray) const = 0;
+    /// Of all instances, in the world.
+    [[nodiscard]] virtual Bounds bounds() const = 0;
     [[nodiscard]] virtual std::int64_t byte_count() const = 0;
 };
 
