@@ -37,7 +37,9 @@ VoxelizeOptions voxelize_options(const Arguments& arguments, const std::string& 
             "--samples is of no use without --coverage mask: nothing is left to chance");
     }
     if (arguments.given("memory")) options.memory_bytes = arguments.bytes("memory");
-    options.footprints = static_cast<std::int32_t>(arguments.integer("footprints"));
+    if (arguments.given("footprints")) {
+        options.footprints = static_cast<std::int32_t>(arguments.integer("footprints"));
+    }
     options.correlation = arguments.given("correlation");
     if (arguments.text("lod") == "naive" && (options.footprints != 0 || options.correlation)) {
         throw UsageError("--lod naive averages coverage: it has no footprints and no correlation");
@@ -76,12 +78,16 @@ void run_voxelize(const Arguments& arguments, Report& report, ProgressBar& bar) 
     refuse_volume_options(arguments);
     const auto start = std::chrono::steady_clock::now();
     const std::string output = arguments.text("output");
-    const VoxelizeOptions options = voxelize_options(arguments, output);
+    VoxelizeOptions options = voxelize_options(arguments, output);
     const bool dry_run = arguments.given("dry-run");
     if (!dry_run) check_output(output, ".vdb");
     bar.begin("read", "files", 1);
     Geometry geometry = load_geometry(arguments.text("FILE"), arguments);
     apply_model(geometry, arguments);
+    if (!arguments.given("footprints") && geometry.meshes.empty() &&
+        arguments.text("lod") != "naive") {
+        options.footprints = 4; // transport through fibers needs them: docs/transport.md
+    }
     bar.check();
     bar.begin("plan", "files", 1);
     std::unique_ptr<LevelBuilder> levels_above = level_builder(arguments);
@@ -141,7 +147,8 @@ Command voxelize_command() {
     });
     add(level_options());
     add({
-        {"--footprints", "N", "0", one_of({"0", "4", "8"}), "cells per axis",
+        {"--footprints", "N", "(4 of yarn and hair, else 0)", one_of({"0", "4", "8"}),
+         "cells per axis",
          "keeps which parts of a voxel's faces are covered, for transport; 0 = no"},
         {"--correlation", "", "", flag(), "",
          "keeps how far neighbouring voxels hide the same, for transport: a byte a face"},

@@ -123,12 +123,11 @@ private:
     /// starts on does not shade itself. Voxels that know no places would stop it at once. Chosen by
     /// brightness against traced geometry (docs/transport.md).
     [[nodiscard]] static float clear_of(const Event& event, Vec3f direction) {
-        constexpr float kRadii = 8.0f;
-        static const float kEdges = getenv("EDGES") ? (float)atof(getenv("EDGES")) : 1.0f;
-        static const float kLeastCosine = getenv("LEAST") ? (float)atof(getenv("LEAST")) : 0.25f;
+        constexpr float kRadii = 5.0f;
+        constexpr float kLeastCosine = 0.25f;
         if (event.fiber) return kRadii * event.size;
         const float cosine = std::fabs(dot(direction, event.scatterer.axis));
-        return kEdges * event.size / std::max(cosine, kLeastCosine);
+        return event.size / std::max(cosine, kLeastCosine);
     }
 
     /// A ray that starts at an event, clear of the surface it stands on.

@@ -16,7 +16,7 @@ namespace heddle {
 
 /// How voxels of one ray are put together. docs/transport.md compares them.
 enum class Transport : std::uint8_t {
-    Automatic, ///< Footprint where the file has footprints, else Product
+    Automatic, ///< Footprint for fibers where the file has footprints, else Product
     Product,   ///< each voxel on its own: extinctions add up          [Fabre26, LopezMoreno17]
     Threshold, ///< a ray keeps what it drew from voxel to voxel as their faces correlate; Product
                ///< where the file has no correlation
@@ -35,19 +35,17 @@ enum class Transport : std::uint8_t {
     if (asked == Transport::Threshold) {
         return level.has_correlation() ? asked : Transport::Product;
     }
-    const bool wants = asked == Transport::Automatic || asked == Transport::Footprint;
+    const bool wants =
+        asked == Transport::Footprint || (asked == Transport::Automatic && level.fibers_only());
     return wants && level.has_footprints() ? Transport::Footprint : Transport::Product;
 }
 
-/// Optical depth of a displacement, from depths along the axes: sqrt(sum_a (d_a x_a)^2).
+/// One optical depth of three along the axes: the root of the sum of squares.
 ///
 /// Exact on the axes, for fibers of one direction, and for fibers of all; crossed sheets would need
 /// the sum instead. Nearer to traced geometry than the sum or their mean (docs/transport.md).
-/// @param depth     -ln(1 - coverage) along each axis
-/// @param distance  |displacement| in voxels
-[[nodiscard]] inline float combine_depths(Vec3f depth, Vec3f distance) {
-    const Vec3f x = depth * distance;
-    return std::sqrt(dot(x, x));
+[[nodiscard]] inline float combine_depths(Vec3f depth) {
+    return std::sqrt(dot(depth, depth));
 }
 
 /// A voxel's depths along the axes.
@@ -57,12 +55,14 @@ enum class Transport : std::uint8_t {
            kDepthUnit;
 }
 
-/// Depths along the axes for a ray that takes one way through the voxel: of the cells of each face
-/// that its projection sweeps.
+/// Depths along the axes of a ray that takes one way through the voxel: of the cells of each face that
+/// its projection sweeps.
 ///
-/// Swept share of set cells -> coverage -> depth. A ray along an axis meets one cell, set or not; an
-/// oblique one a mean. Where rounding set more than was covered the cells are thinned; where it set
-/// none the voxel is even.
+/// A ray along an axis meets one cell, set or not; an oblique one the swept share of set cells is its
+/// coverage c. A covered column is blocked at one place in it: of a way through the part d of the
+/// voxel along the axis c d is blocked. (Depths that add up, 1 - (1 - c)^d, hold for fine dust.)
+/// Where rounding set more cells than were covered they are thinned; where it set none the voxel is
+/// even.
 /// @param voxel       its own depths
 /// @param footprints  VolumeLevel::footprints
 /// @param in, out     where the ray enters and leaves, in [0, 1]^3 of the voxel
@@ -71,7 +71,8 @@ depths_on_way(const VolumeVoxel& voxel, std::uint64_t footprints, Vec3f in, Vec3
     constexpr int kPoints = 4;
     constexpr float kFull = 1.0f - 1.0f / 128.0f; // a cell stands for its columns: never opaque
     std::array<int, 3> hits{};
-    const Vec3f step = (out - in) * (4.0f / kPoints);
+    const Vec3f way = out - in;
+    const Vec3f step = way * (4.0f / kPoints);
     Vec3f at = in * 4.0f + step * 0.5f;
     for (int k = 0; k < kPoints; ++k, at = at + step) {
         const auto cell = [](float x) { return std::clamp(static_cast<int>(x), 0, 3); };
@@ -80,15 +81,18 @@ depths_on_way(const VolumeVoxel& voxel, std::uint64_t footprints, Vec3f in, Vec3
         hits[1] += static_cast<int>(footprints >> (16 + 4 * x + z) & 1);
         hits[2] += static_cast<int>(footprints >> (32 + 4 * y + x) & 1);
     }
-    Vec3f depth = depths_of(voxel);
+    const Vec3f even = depths_of(voxel);
+    Vec3f depth{};
     for (int a = 0; a < 3; ++a) {
         const auto bits = static_cast<std::uint16_t>(footprints >> (16 * a));
-        if (bits == 0) continue;
-        const float share = static_cast<float>(std::popcount(bits)) * (1.0f / 16.0f);
-        const float covered = 1.0f - std::exp(-depth[a]);
-        const float swept = static_cast<float>(hits[static_cast<std::size_t>(a)]) *
-                            (1.0f / kPoints) * std::min(1.0f, covered / share);
-        depth[a] = -std::log(1.0f - std::min(swept, kFull));
+        const float covered = 1.0f - std::exp(-even[a]);
+        float swept = covered;
+        if (bits != 0) {
+            const float share = static_cast<float>(std::popcount(bits)) * (1.0f / 16.0f);
+            swept = static_cast<float>(hits[static_cast<std::size_t>(a)]) * (1.0f / kPoints) *
+                    std::min(1.0f, covered / share);
+        }
+        depth[a] = -std::log(1.0f - std::min(swept * std::fabs(way[a]), kFull));
     }
     return depth;
 }
@@ -118,7 +122,7 @@ public:
         const VolumeVoxel& voxel = level.voxel(step.voxel);
         const Vec3f distance = rate_ * (step.t_out - step.t_in);
         if (kind_ == Transport::Product) {
-            const float depth = combine_depths(depths_of(voxel), distance);
+            const float depth = combine_depths(depths_of(voxel) * distance);
             depth_ += depth;
             if (flight_ ? depth < left_ : depth_ < kOpaque) {
                 left_ -= depth;
@@ -134,8 +138,8 @@ public:
         const Vec3f depths = kind_ == Transport::Footprint
                                  ? depths_on_way(voxel, level.footprints(step.voxel),
                                                  inside(step, step.t_in), inside(step, step.t_out))
-                                 : depths_of(voxel);
-        const float depth = combine_depths(depths, distance);
+                                 : depths_of(voxel) * distance;
+        const float depth = combine_depths(depths);
         depth_ += std::max(0.0f, depth - largest_);
         largest_ = std::max(largest_, depth);
         last_ = step.at;

@@ -64,6 +64,7 @@ VolumeLevel::VolumeLevel(const VoxelSource& source) : info_(source.info()) {
     const std::vector<std::uint16_t> table = depth_table(info_.lattice);
     voxels_.reserve(static_cast<std::size_t>(info_.voxel_count));
     lobes_.reserve(static_cast<std::size_t>(info_.lobe_count));
+    for (const Material& m : info_.materials) fibers_only_ &= m.kind == MaterialKind::Fiber;
     VoxelBlock scratch;
     for (std::size_t b = 0; b < source.block_count(); ++b) append(source.block(b, scratch), table);
     if (leaves_.size() >= std::size_t{1} << 31) {

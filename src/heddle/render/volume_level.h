@@ -81,6 +81,8 @@ public:
     [[nodiscard]] const PackedSggx* tangent(std::size_t l) const {
         return tangents_.empty() ? nullptr : &tangents_[l];
     }
+    /// No material is of surfaces.
+    [[nodiscard]] bool fibers_only() const { return fibers_only_; }
     [[nodiscard]] bool has_footprints() const { return !footprints_.empty(); }
     /// Footprints of 4 x 4 cells along x, y, z, 16 bits each from the lowest on: bit 4 b + a, a and b
     /// the cell's place on the next two axes.
@@ -112,6 +114,7 @@ private:
     [[nodiscard]] static std::uint32_t hash(Vec3i tile);
 
     VoxelGridInfo info_;
+    bool fibers_only_ = true;
     Vec3i lo_{}, hi_{};
     std::vector<std::uint32_t> slots_;
     std::vector<Tile> tiles_;
