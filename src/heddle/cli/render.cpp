@@ -130,7 +130,7 @@ Command render_command() {
              "of detail everywhere; 0 = the finest"},
             {"--level-offset", "X", "0", number(-8, 8), "levels",
              "added to what the footprint asks for; below 0 is finer"},
-            {"--transport", "MODEL", "(the scene's, or product)", one_of(transport_names()), "",
+            {"--transport", "MODEL", "(the scene's, or auto)", one_of(transport_names()), "",
              "how voxels along a ray are put together"},
             {"--samples", "N", "(the scene's, or 64)", integer(1, 1'000'000'000), "per pixel",
              "stops there"},

@@ -27,7 +27,7 @@ struct PathOptions {
     int roulette_depth = 5;    ///< events before Russian roulette
     int level = -1;            ///< of detail everywhere; -1: by footprint
     float level_offset = 0.0f; ///< added to the level that a footprint asks for
-    Transport transport = Transport::Product;
+    Transport transport = Transport::Automatic;
     bool with_transmittance = true; ///< of volumes, exact along each camera ray
 };
 

@@ -8,13 +8,13 @@
 namespace heddle {
 
 const std::vector<std::string>& transport_names() {
-    static const std::vector<std::string> names{"product"};
+    static const std::vector<std::string> names{"auto", "product", "threshold", "footprint"};
     return names;
 }
 
 Transport transport_from(const std::string& name) {
     const std::vector<std::string>& names = transport_names();
-    if (name.empty()) return Transport::Product;
+    if (name.empty()) return Transport::Automatic;
     const auto at = std::find(names.begin(), names.end(), name);
     if (at != names.end()) return static_cast<Transport>(at - names.begin());
     throw Error(ErrorCode::InvalidArgument, str("unknown transport '", name, "'"),

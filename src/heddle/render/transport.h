@@ -2,9 +2,13 @@
 
 #include <heddle/base/random.h>
 #include <heddle/render/volume_level.h>
+#include <heddle/render/walk.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -12,26 +16,181 @@ namespace heddle {
 
 /// How voxels of one ray are put together. docs/transport.md compares them.
 enum class Transport : std::uint8_t {
-    Product ///< each voxel on its own: extinctions add up                [Fabre26, LopezMoreno17]
+    Automatic, ///< Footprint where the file has footprints, else Product
+    Product,   ///< each voxel on its own: extinctions add up          [Fabre26, LopezMoreno17]
+    Threshold, ///< a ray keeps what it drew from voxel to voxel as their faces correlate; Product
+               ///< where the file has no correlation
+    Footprint  ///< where a ray crosses the voxels' faces decides; Product without footprints
 };
 
-/// Names on the command line, in the order of Transport; the first is the default.
+/// Names on the command line, in the order of Transport.
 [[nodiscard]] const std::vector<std::string>& transport_names();
 
-/// The transport of that name; the default where it is empty.
+/// The transport of that name; Automatic where it is empty.
 /// @throws Error  InvalidArgument: no such name
 [[nodiscard]] Transport transport_from(const std::string& name);
 
-/// Optical depth that a voxel shows per unit of t.
-///
-/// Half of sum_a d_a |w_a| and half of sqrt(sum_a (d_a w_a)^2), d the depths along the axes: each is
-/// exact on the axes; off them one errs up and the other down (findings, docs/transport.md).
-/// @param rate  |direction| of the ray in voxels per t, times kDepthUnit
-[[nodiscard]] inline float extinction(const VolumeVoxel& voxel, Vec3f rate) {
-    const float x = static_cast<float>(voxel.depth[0]) * rate.x;
-    const float y = static_cast<float>(voxel.depth[1]) * rate.y;
-    const float z = static_cast<float>(voxel.depth[2]) * rate.z;
-    return 0.5f * (x + y + z + std::sqrt(x * x + y * y + z * z));
+/// The transport that a level's data allow.
+[[nodiscard]] inline Transport resolve(Transport asked, const VolumeLevel& level) {
+    if (asked == Transport::Threshold) {
+        return level.has_correlation() ? asked : Transport::Product;
+    }
+    const bool wants = asked == Transport::Automatic || asked == Transport::Footprint;
+    return wants && level.has_footprints() ? Transport::Footprint : Transport::Product;
 }
+
+/// Optical depth of a displacement, from depths along the axes: sqrt(sum_a (d_a x_a)^2).
+///
+/// Exact on the axes, for fibers of one direction, and for fibers of all; crossed sheets would need
+/// the sum instead. Nearer to traced geometry than the sum or their mean (docs/transport.md).
+/// @param depth     -ln(1 - coverage) along each axis
+/// @param distance  |displacement| in voxels
+[[nodiscard]] inline float combine_depths(Vec3f depth, Vec3f distance) {
+    const Vec3f x = depth * distance;
+    return std::sqrt(dot(x, x));
+}
+
+/// A voxel's depths along the axes.
+[[nodiscard]] inline Vec3f depths_of(const VolumeVoxel& voxel) {
+    return Vec3f{static_cast<float>(voxel.depth[0]), static_cast<float>(voxel.depth[1]),
+                 static_cast<float>(voxel.depth[2])} *
+           kDepthUnit;
+}
+
+/// Depths along the axes for a ray that takes one way through the voxel: of the cells of each face
+/// that its projection sweeps.
+///
+/// Swept share of set cells -> coverage -> depth. A ray along an axis meets one cell, set or not; an
+/// oblique one a mean. Where rounding set more than was covered the cells are thinned; where it set
+/// none the voxel is even.
+/// @param voxel       its own depths
+/// @param footprints  VolumeLevel::footprints
+/// @param in, out     where the ray enters and leaves, in [0, 1]^3 of the voxel
+[[nodiscard]] inline Vec3f
+depths_on_way(const VolumeVoxel& voxel, std::uint64_t footprints, Vec3f in, Vec3f out) {
+    constexpr int kPoints = 4;
+    constexpr float kFull = 1.0f - 1.0f / 128.0f; // a cell stands for its columns: never opaque
+    std::array<int, 3> hits{};
+    const Vec3f step = (out - in) * (4.0f / kPoints);
+    Vec3f at = in * 4.0f + step * 0.5f;
+    for (int k = 0; k < kPoints; ++k, at = at + step) {
+        const auto cell = [](float x) { return std::clamp(static_cast<int>(x), 0, 3); };
+        const int x = cell(at.x), y = cell(at.y), z = cell(at.z);
+        hits[0] += static_cast<int>(footprints >> (4 * z + y) & 1);
+        hits[1] += static_cast<int>(footprints >> (16 + 4 * x + z) & 1);
+        hits[2] += static_cast<int>(footprints >> (32 + 4 * y + x) & 1);
+    }
+    Vec3f depth = depths_of(voxel);
+    for (int a = 0; a < 3; ++a) {
+        const auto bits = static_cast<std::uint16_t>(footprints >> (16 * a));
+        if (bits == 0) continue;
+        const float share = static_cast<float>(std::popcount(bits)) * (1.0f / 16.0f);
+        const float covered = 1.0f - std::exp(-depth[a]);
+        const float swept = static_cast<float>(hits[static_cast<std::size_t>(a)]) *
+                            (1.0f / kPoints) * std::min(1.0f, covered / share);
+        depth[a] = -std::log(1.0f - std::min(swept, kFull));
+    }
+    return depth;
+}
+
+/// Walks a ray through voxels of one transport: as a free flight, or for its transmittance.
+///
+/// A ray carries a threshold E, an exponential draw. A voxel stops it where the optical depth within
+/// the voxel reaches E. At a face E is kept with a probability and drawn anew otherwise: 0 is the
+/// product of independent voxels; 1 a ray that, once through a voxel, passes all that are no denser.
+/// The light that passes is the product over runs of kept thresholds of 1 - (the run's largest
+/// coverage): its mean over the draws is the same law.
+class TransportWalker {
+public:
+    /// @param flight  draw where the ray stops; else sum the depth of what passes
+    TransportWalker(Transport asked, bool flight, StreamRandom& random)
+        : asked_(asked), flight_(flight), random_(random), left_(draw()) {}
+
+    void enter(const VolumeLevel& level, const VoxelRay& ray) {
+        kind_ = resolve(asked_, level);
+        ray_ = ray;
+        rate_ = to_float(Vec3d{std::fabs(ray.direction.x), std::fabs(ray.direction.y),
+                               std::fabs(ray.direction.z)});
+        any_ = false;
+    }
+    /// @return  false: nothing behind matters
+    bool pass(const VolumeLevel& level, const VoxelStep& step) {
+        const VolumeVoxel& voxel = level.voxel(step.voxel);
+        const Vec3f distance = rate_ * (step.t_out - step.t_in);
+        if (kind_ == Transport::Product) {
+            const float depth = combine_depths(depths_of(voxel), distance);
+            depth_ += depth;
+            if (flight_ ? depth < left_ : depth_ < kOpaque) {
+                left_ -= depth;
+                return true;
+            }
+            return stop(step, depth);
+        }
+        const bool keeps = any_ && random_.uniform() < keep_chance(level, step);
+        if (!keeps) {
+            if (any_ && flight_) left_ = draw();
+            largest_ = 0.0f;
+        }
+        const Vec3f depths = kind_ == Transport::Footprint
+                                 ? depths_on_way(voxel, level.footprints(step.voxel),
+                                                 inside(step, step.t_in), inside(step, step.t_out))
+                                 : depths_of(voxel);
+        const float depth = combine_depths(depths, distance);
+        depth_ += std::max(0.0f, depth - largest_);
+        largest_ = std::max(largest_, depth);
+        last_ = step.at;
+        last_voxel_ = step.voxel;
+        any_ = true;
+        if (flight_ ? depth < left_ : depth_ < kOpaque) return true;
+        return stop(step, depth);
+    }
+
+    [[nodiscard]] bool stopped() const { return stopped_; }
+    [[nodiscard]] float t() const { return t_; } ///< where a flight stopped
+    [[nodiscard]] float transmittance() const { return stopped_ ? 0.0f : std::exp(-depth_); }
+
+private:
+    static constexpr float kOpaque = 16.0f; ///< less than 1.2e-7 passes
+    /// Of a face between two voxels, with footprints: what neighbours share beyond the cells.
+    static constexpr float kKeep = 0.5f;
+
+    [[nodiscard]] float draw() { return -std::log(1.0f - random_.uniform()); }
+    bool stop(const VoxelStep& step, float depth) {
+        const float share = depth > 0.0f ? std::min(left_ / depth, 1.0f) : 0.0f;
+        t_ = step.t_in + share * (step.t_out - step.t_in);
+        stopped_ = true;
+        return false;
+    }
+    [[nodiscard]] Vec3f inside(const VoxelStep& step, float t) const {
+        const Vec3d at = ray_.origin + ray_.direction * static_cast<double>(t);
+        return to_float(at - Vec3d{static_cast<double>(step.at.x), static_cast<double>(step.at.y),
+                                   static_cast<double>(step.at.z)});
+    }
+    /// 0 unless the voxel stands behind a face of the last one.
+    [[nodiscard]] float keep_chance(const VolumeLevel& level, const VoxelStep& step) const {
+        const Vec3i d = step.at - last_;
+        if (std::abs(d.x) + std::abs(d.y) + std::abs(d.z) != 1) return 0.0f;
+        if (kind_ == Transport::Footprint) return kKeep;
+        const int axis = d.x != 0 ? 0 : d.y != 0 ? 1 : 2;
+        const std::int64_t lower = d[axis] > 0 ? last_voxel_ : step.voxel;
+        return static_cast<float>(level.correlation(lower)[static_cast<std::size_t>(axis)]) *
+               (1.0f / 255.0f);
+    }
+
+    Transport asked_;
+    Transport kind_ = Transport::Product;
+    bool flight_;
+    StreamRandom& random_;
+    float left_;           ///< the threshold; with Product what is left of one for all voxels
+    float depth_ = 0.0f;   ///< of what passes
+    float largest_ = 0.0f; ///< of this run
+    float t_ = 0.0f;
+    bool stopped_ = false;
+    bool any_ = false; ///< a voxel came before this one in the level
+    Vec3i last_{};
+    std::int64_t last_voxel_ = 0;
+    VoxelRay ray_;
+    Vec3f rate_{};
+};
 
 } // namespace heddle

@@ -34,31 +34,6 @@ Range clip(Vec3d origin, Vec3d direction, float t_min, float t_max, const Bounds
     return {static_cast<float>(t0), static_cast<float>(t1)};
 }
 
-/// Flight and transmittance of Transport::Product: one optical depth, spent voxel by voxel.
-struct ProductWalker {
-    float left;   ///< optical depth that may still be spent
-    Vec3f rate{}; ///< set by `enter`
-    VolumeHit hit{};
-    bool stopped = false;
-
-    void enter(const VoxelRay& ray) {
-        rate = to_float(Vec3d{std::fabs(ray.direction.x), std::fabs(ray.direction.y),
-                              std::fabs(ray.direction.z)}) *
-               kDepthUnit;
-    }
-    bool pass(const VolumeLevel& level, int number, const VoxelStep& step) {
-        const float mu = extinction(level.voxel(step.voxel), rate);
-        const float depth = mu * (step.t_out - step.t_in);
-        if (depth < left) {
-            left -= depth;
-            return true;
-        }
-        hit = {std::min(step.t_in + left / mu, step.t_out), number, &step.leaf, step.voxel};
-        stopped = true;
-        return false;
-    }
-};
-
 Vec3d scale(Vec3i index, Vec3d h) {
     return Vec3d{static_cast<double>(index.x), static_cast<double>(index.y),
                  static_cast<double>(index.z)} *
@@ -125,13 +100,16 @@ int Volume::usable_level(int level) const {
     return 0;
 }
 
-template <typename Walker>
-void Volume::walk(const Ray& ray, const LevelChoice& choice, Walker& walker) const {
+template <typename Note>
+void Volume::walk(const Ray& ray,
+                  const LevelChoice& choice,
+                  TransportWalker& walker,
+                  const Note& note) const {
     if (object_bounds_.empty()) return; // no ray would ever leave it
     const Vec3d origin = to_object_.point(ray.origin);
     const Vec3d direction = to_object_.direction(to_double(ray.direction));
     const Range range = clip(origin, direction, 0.0f, ray.t_max, object_bounds_);
-    for (float t = range.t0; t < range.t1 && !walker.stopped;) {
+    for (float t = range.t0; t < range.t1 && !walker.stopped();) {
         // the level holds until the footprint asks for the next
         float end = range.t1;
         int wanted = choice.forced;
@@ -155,32 +133,37 @@ void Volume::walk(const Ray& ray, const LevelChoice& choice, Walker& walker) con
         const Vec3d h = level.info().lattice.voxel_size;
         const Vec3d per{1.0 / h.x, 1.0 / h.y, 1.0 / h.z};
         const VoxelRay voxel_ray{origin * per, direction * per};
-        walker.enter(voxel_ray);
-        walk_voxels(level, voxel_ray, t, end,
-                    [&](const VoxelStep& step) { return walker.pass(level, number, step); });
+        walker.enter(level, voxel_ray);
+        const Range inside =
+            clip(origin, direction, t, end, level_bounds_[static_cast<std::size_t>(number)]);
+        walk_voxels(level, voxel_ray, inside.t0, inside.t1, [&](const VoxelStep& step) {
+            if (walker.pass(level, step)) return true;
+            note(number, step);
+            return false;
+        });
         t = end;
     }
 }
 
 bool Volume::sample_flight(const Ray& ray,
-                           Transport,
+                           Transport transport,
                            const LevelChoice& choice,
                            StreamRandom& random,
                            VolumeHit& hit) const {
-    ProductWalker walker{-std::log1p(-random.uniform())};
-    walk(ray, choice, walker);
-    hit = walker.hit;
-    return walker.stopped;
+    TransportWalker walker(transport, true, random);
+    walk(ray, choice, walker, [&](int level, const VoxelStep& step) {
+        hit = {walker.t(), level, &step.leaf, step.voxel};
+    });
+    return walker.stopped();
 }
 
 float Volume::transmittance(const Ray& ray,
-                            Transport,
+                            Transport transport,
                             const LevelChoice& choice,
-                            StreamRandom&) const {
-    constexpr float kOpaque = 16.0f; // less than 1.2e-7 passes
-    ProductWalker walker{kOpaque};
-    walk(ray, choice, walker);
-    return walker.stopped ? 0.0f : std::exp(walker.left - kOpaque);
+                            StreamRandom& random) const {
+    TransportWalker walker(transport, false, random);
+    walk(ray, choice, walker, [](int, const VoxelStep&) {});
+    return walker.transmittance();
 }
 
 Scatterer Volume::scatterer(const VolumeHit& hit,

@@ -74,8 +74,12 @@ public:
     [[nodiscard]] const VolumePyramid& pyramid() const { return pyramid_; }
 
 private:
-    template <typename Walker>
-    void walk(const Ray& ray, const LevelChoice& choice, Walker& walker) const;
+    /// Calls note(level, step) where the walker stops.
+    template <typename Note>
+    void walk(const Ray& ray,
+              const LevelChoice& choice,
+              TransportWalker& walker,
+              const Note& note) const;
     [[nodiscard]] int usable_level(int level) const;
 
     VolumePyramid pyramid_;

@@ -22,6 +22,32 @@ std::vector<std::uint16_t> depth_table(const Lattice& lattice) {
     return table;
 }
 
+/// 16 bits of a footprint of 8 x 8 cells: as many as its share rounds to, the fullest cells first.
+std::uint64_t halve_footprint(std::uint64_t bits) {
+    std::array<int, 16> count{};
+    for (; bits != 0; bits &= bits - 1) {
+        const int bit = std::countr_zero(bits);
+        ++count[static_cast<std::size_t>((bit >> 4) * 4 + (bit >> 1 & 3))];
+    }
+    const int total = std::accumulate(count.begin(), count.end(), 0);
+    std::uint64_t out = 0;
+    for (int set = (total + 2) / 4; set > 0; --set) {
+        const auto fullest = std::max_element(count.begin(), count.end());
+        out |= std::uint64_t{1} << (fullest - count.begin());
+        *fullest = -1;
+    }
+    return out;
+}
+
+/// Three footprints of n x n cells as 48 bits.
+std::uint64_t pack_footprints(const std::array<std::uint64_t, 3>& from, int n) {
+    std::uint64_t out = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+        out |= (n == 8 ? halve_footprint(from[a]) : from[a]) << (16 * a);
+    }
+    return out;
+}
+
 template <typename T>
 void append_to(std::vector<T>& to, const std::vector<T>& from) {
     to.insert(to.end(), from.begin(), from.end());
@@ -78,7 +104,9 @@ void VolumeLevel::append(const VoxelBlock& block,
     append_to(lobes_, block.lobes);
     append_to(maps_, block.maps);
     append_to(tangents_, block.tangents);
-    append_to(footprints_, block.footprints);
+    for (const auto& footprint : block.footprints) {
+        footprints_.push_back(pack_footprints(footprint, info_.fields.footprints));
+    }
     append_to(correlation_, block.correlation);
 }
 

@@ -81,11 +81,17 @@ public:
     [[nodiscard]] const PackedSggx* tangent(std::size_t l) const {
         return tangents_.empty() ? nullptr : &tangents_[l];
     }
-    [[nodiscard]] const std::array<std::uint64_t, 3>* footprints(std::int64_t v) const {
-        return footprints_.empty() ? nullptr : &footprints_[static_cast<std::size_t>(v)];
+    [[nodiscard]] bool has_footprints() const { return !footprints_.empty(); }
+    /// Footprints of 4 x 4 cells along x, y, z, 16 bits each from the lowest on: bit 4 b + a, a and b
+    /// the cell's place on the next two axes.
+    /// @param v  of a level that has footprints
+    [[nodiscard]] std::uint64_t footprints(std::int64_t v) const {
+        return footprints_[static_cast<std::size_t>(v)];
     }
-    [[nodiscard]] const std::array<std::uint8_t, 3>* correlation(std::int64_t v) const {
-        return correlation_.empty() ? nullptr : &correlation_[static_cast<std::size_t>(v)];
+    [[nodiscard]] bool has_correlation() const { return !correlation_.empty(); }
+    /// VoxelBlock::correlation. @param v  of a level that has it
+    [[nodiscard]] const std::array<std::uint8_t, 3>& correlation(std::int64_t v) const {
+        return correlation_[static_cast<std::size_t>(v)];
     }
     [[nodiscard]] std::int64_t byte_count() const;
 
@@ -115,7 +121,7 @@ private:
     std::vector<Lobe> lobes_;
     std::vector<LobeMaps> maps_;
     std::vector<PackedSggx> tangents_;
-    std::vector<std::array<std::uint64_t, 3>> footprints_;
+    std::vector<std::uint64_t> footprints_;
     std::vector<std::array<std::uint8_t, 3>> correlation_;
 };
 
