@@ -265,7 +265,7 @@ volume = "one.vdb"
 TOML
 works render inside.toml -o inside.exr --quiet
 fails 2 "did you mean 'product'?" render one.vdb -o x.exr --transport prodct
-fails 2 "did you mean 'product'?" render one.vdb -o x.exr --transport ''
+fails 2 "--transport: ''" render one.vdb -o x.exr --transport ''
 sed 's/samples = 1/transport = "prodct"/' inside.toml >transport.toml
 fails 2 "unknown transport 'prodct'" render transport.toml -o x.exr
 fails 2 "x.jpg' must end in .exr or .png" render one.vdb -o x.jpg
@@ -275,7 +275,7 @@ fails 2 "--samples" render one.vdb -o x.exr --samples 0
 fails 2 "--exposure" render one.vdb -o x.png --exposure nan
 fails 2 "--geometry is of no use here" render one.vdb -o x.exr --geometry
 fails 1 "nowhere" render one.vdb -o nowhere/x.exr
-fails 1 "folder.vdb" render one.vdb -o folder.vdb
+mkdir folder.exr && fails 1 "folder.exr" render one.vdb -o folder.exr
 fails 3 "missing.vdb" render missing.vdb -o x.exr
 fails 3 "missing.toml" render missing.toml -o x.exr
 fails 3 "knit.bcc" render knit.bcc -o x.exr
@@ -284,7 +284,7 @@ fails 3 "x.exr.checkpoint" render one.vdb -o x.exr --resume
 for n in 100 5000 20000; do
     head -c $n one.vdb >cut.vdb && fails 3 "cut.vdb" render cut.vdb -o x.exr
 done
-sed 's/one.vdb/missing.vdb/' inside.toml >gone.toml && fails 3 "gone.toml:10" render gone.toml -o x.exr
+sed 's/one.vdb/missing.vdb/' inside.toml >gone.toml && fails 3 "gone.toml:11" render gone.toml -o x.exr
 printf '%s\n' '[film]' 'size = [0, 5]' '[object.a]' 'volume = 5' 'colour = 1' >many.toml
 "$heddle" render many.toml -o x.exr >out.txt 2>err.txt
 [ $? -eq 3 ] && [ "$(wc -l <err.txt)" -ge 3 ] || wrong "not all problems of a scene at once: $(cat err.txt)"

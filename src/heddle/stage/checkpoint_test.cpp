@@ -52,8 +52,8 @@ TEST(Checkpoint, OfAnotherSceneOrSizeIsRefused) {
     write_checkpoint(path, kScene, small_picture());
     EXPECT_NE(refused(path, 43).find("another scene"), std::string::npos);
     EXPECT_NE(refused(path, kScene, 3, 5).find("5 x 3"), std::string::npos);
-    const auto missing = error_of(
-        [&] { static_cast<void>(read_checkpoint(folder.file("none"), kScene, 5, 3)); });
+    const auto missing =
+        error_of([&] { static_cast<void>(read_checkpoint(folder.file("none"), kScene, 5, 3)); });
     ASSERT_TRUE(missing.has_value());
     EXPECT_EQ(missing->code(), ErrorCode::NotFound);
 }

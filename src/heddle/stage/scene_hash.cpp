@@ -43,9 +43,10 @@ private:
 };
 
 void add(Hash& h, const GenerateOptions& g) {
-    for (const std::int64_t x : {static_cast<std::int64_t>(g.kind), static_cast<std::int64_t>(g.shape),
-                                 static_cast<std::int64_t>(g.nx), static_cast<std::int64_t>(g.ny),
-                                 static_cast<std::int64_t>(g.seed)}) {
+    for (const std::int64_t x :
+         {static_cast<std::int64_t>(g.kind), static_cast<std::int64_t>(g.shape),
+          static_cast<std::int64_t>(g.nx), static_cast<std::int64_t>(g.ny),
+          static_cast<std::int64_t>(g.seed)}) {
         h.whole(x);
     }
     h.number(static_cast<double>(g.radius));
@@ -89,8 +90,8 @@ void add(Hash& h, const SceneLight& light) {
 void add(Hash& h, const SceneCamera& camera) {
     h.whole(static_cast<std::int64_t>(camera.kind));
     for (const Vec3d v : {camera.eye, camera.target, camera.up}) h.vector(v);
-    for (const double x : {camera.view_angle_deg, camera.view_height, camera.lens_radius,
-                           camera.focus_distance}) {
+    for (const double x :
+         {camera.view_angle_deg, camera.view_height, camera.lens_radius, camera.focus_distance}) {
         h.number(x);
     }
 }

@@ -176,9 +176,8 @@ void Stage::choose_levels() {
         const int last = static_cast<int>(volume.pyramid.size()) - 1;
         volume.finest_wanted = last;
         for (const Affine& instance : volume.instances) {
-            const double away =
-                std::max(0.0, distance_to(scene_.volumes[at++].bounds(), view_.eye) -
-                                  view_.lens_radius);
+            const double away = std::max(
+                0.0, distance_to(scene_.volumes[at++].bounds(), view_.eye) - view_.lens_radius);
             const double width =
                 static_cast<double>(corner.width) + static_cast<double>(corner.spread) * away;
             const double level = std::log2(width / (volume.voxel_size * scale_of(instance))) +

@@ -12,7 +12,8 @@ namespace {
 using namespace heddle::testing;
 
 int all_read(Stage& stage) {
-    while (stage.load_next_level()) {}
+    while (stage.load_next_level()) {
+    }
     return finest_read(stage);
 }
 
@@ -20,7 +21,8 @@ TEST(Stage, ADistantCameraReadsCoarseLevelsAlone) {
     const TempFolder folder;
     Scene scene = slab_scene(folder);
     Progress progress;
-    for (const auto& [voxels, finest] : {std::pair{0.3, 0}, {1.3, 0}, {2.6, 1}, {10.5, 3}, {99.0, 4}}) {
+    for (const auto& [voxels, finest] :
+         {std::pair{0.3, 0}, {1.3, 0}, {2.6, 1}, {10.5, 3}, {99.0, 4}}) {
         scene.camera = camera_at(scene, voxels);
         Stage stage(scene, {}, progress);
         const int read = all_read(stage);
@@ -61,7 +63,8 @@ TEST(Stage, NoRayAsksForALevelThatWillNotBeRead) {
             const double t = (0.4 - ray.origin.z) / static_cast<double>(ray.direction.z);
             const Vec3d at = ray.at(t);
             if (!(t > 0.0) || std::fabs(at.x) > 1.6 || std::fabs(at.y) > 1.6) continue;
-            const double level = std::log2(static_cast<double>(ray.width_at(static_cast<float>(t))) / 0.1);
+            const double level =
+                std::log2(static_cast<double>(ray.width_at(static_cast<float>(t))) / 0.1);
             ASSERT_GE(std::clamp(std::floor(level + 1e-6), 0.0, 4.0), read);
         }
     }
@@ -121,8 +124,8 @@ TEST(Stage, WithoutACameraAllOfTheObjectIsSeen) {
         const Stage stage(scene, {}, progress);
         StreamRandom random{1};
         const auto passes = [&](int x, int y) {
-            const Ray ray = stage.camera().ray(static_cast<float>(x) + 0.5f,
-                                               static_cast<float>(y) + 0.5f, {});
+            const Ray ray =
+                stage.camera().ray(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, {});
             return stage.scene().volumes[0].transmittance(ray, Transport::Product, {}, random);
         };
         int met = 0;
@@ -178,7 +181,8 @@ TEST(Stage, AnEnvironmentThatIsNotTwiceAsWideAsHighIsRefused) {
     light.image = folder.file("sky.png");
     Progress progress;
     for (const int width : {3, 4}) {
-        write_png(light.image, width, 2, 3, std::vector<std::uint8_t>(static_cast<std::size_t>(width) * 6, 200));
+        write_png(light.image, width, 2, 3,
+                  std::vector<std::uint8_t>(static_cast<std::size_t>(width) * 6, 200));
         const auto error = error_of([&] { Stage(scene, {}, progress); });
         EXPECT_EQ(error.has_value(), width == 3);
         if (error) {

@@ -68,8 +68,8 @@ inline Scene slab_scene(const TempFolder& folder,
 /// A camera in front of the slab from which a pixel is `voxels` voxels wide on it.
 inline SceneCamera camera_at(const Scene& scene, double voxels) {
     SceneCamera camera;
-    const double pixel = 2.0 * std::tan(0.5 * camera.view_angle_deg * 3.14159265 / 180.0) /
-                         scene.height;
+    const double pixel =
+        2.0 * std::tan(0.5 * camera.view_angle_deg * 3.14159265 / 180.0) / scene.height;
     camera.eye = {0, 0, 0.4 + 0.1 * voxels / pixel};
     return camera;
 }
