@@ -29,4 +29,8 @@ struct Geometry {
     }
 };
 
+/// Mean radius of the fibers of a material, over control points; flyaway hairs are not counted.
+/// @return  scene units; 0 where nothing with that material is a fiber
+[[nodiscard]] float mean_fiber_radius(const Geometry& geometry, std::uint32_t material);
+
 } // namespace heddle

@@ -37,6 +37,8 @@ struct Material {
     float height_scale =
         0.0f; ///< displacement at height-map value 1, scene units, along the normal
     float height_offset = 0.0f; ///< displacement at height-map value 0, scene units
+    float fiber_radius =
+        0.0f; ///< mean of the fibers that have this material, scene units; 0: unknown
     std::int32_t albedo_map = -1;
     std::int32_t normal_map = -1;
     std::int32_t metal_rough_map = -1;

@@ -28,6 +28,8 @@ struct Event {
     float level = 0.0f;
     Vec3f normal{}; ///< geometric; zero in a volume
     float offset = 0.0f;
+    bool fiber = false; ///< in a volume, as VolumeScatter
+    float size = 0.0f;
 };
 
 class PathTracer {
@@ -79,7 +81,7 @@ private:
         bool found = false;
         Ray open = ray;
         if (TracedHit hit; scene_.surfaces && scene_.surfaces->intersect(ray, hit)) {
-            event = {hit.t, hit.scatterer, hit.material, 0.0f, hit.normal, hit.offset};
+            event = {hit.t, hit.scatterer, hit.material, 0.0f, hit.normal, hit.offset, false, 0.0f};
             open.t_max = hit.t;
             found = true;
         }
@@ -95,8 +97,12 @@ private:
         }
         if (stopped_in == nullptr) return found;
         event.t = nearest.t;
-        event.scatterer = stopped_in->scatterer(nearest, ray.direction * -1.0f, scene_.materials,
-                                                sampler_.stream(), event.material);
+        const VolumeScatter drawn = stopped_in->scatter(nearest, ray.direction * -1.0f,
+                                                        scene_.materials, sampler_.stream());
+        event.scatterer = drawn.scatterer;
+        event.material = drawn.material;
+        event.fiber = drawn.fiber;
+        event.size = drawn.size;
         event.level = static_cast<float>(nearest.level);
         event.normal = {};
         event.offset = 0.0f;
@@ -113,11 +119,24 @@ private:
         return largest(hit.radiance) > 0.0f;
     }
 
+    /// How far from an event in a volume nothing stops a ray: the way there was free, and what the ray
+    /// starts on does not shade itself. Voxels that know no places would stop it at once. Chosen by
+    /// brightness against traced geometry (docs/transport.md).
+    [[nodiscard]] static float clear_of(const Event& event, Vec3f direction) {
+        constexpr float kRadii = 8.0f;
+        static const float kEdges = getenv("EDGES") ? (float)atof(getenv("EDGES")) : 1.0f;
+        static const float kLeastCosine = getenv("LEAST") ? (float)atof(getenv("LEAST")) : 0.25f;
+        if (event.fiber) return kRadii * event.size;
+        const float cosine = std::fabs(dot(direction, event.scatterer.axis));
+        return kEdges * event.size / std::max(cosine, kLeastCosine);
+    }
+
     /// A ray that starts at an event, clear of the surface it stands on.
     [[nodiscard]] static Ray
     leave(const Event& event, Vec3d at, Vec3f direction, float width, float spread) {
         const float side = dot(direction, event.normal) < 0.0f ? -event.offset : event.offset;
-        return {at + to_double(event.normal * side), direction, kInfinity, width, spread};
+        return {at + to_double(event.normal * side), direction, kInfinity, width, spread,
+                clear_of(event, direction)};
     }
 
     [[nodiscard]] Vec3f direct_light(const Event& event, Vec3d at, Vec3f wi, float width) {

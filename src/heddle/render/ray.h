@@ -13,6 +13,7 @@ struct Ray {
     float t_max = std::numeric_limits<float>::infinity(); ///< scene units
     float width = 0.0f;                                   ///< of the footprint at the origin
     float spread = 0.0f;                                  ///< growth of the width per unit of t
+    float clear = 0.0f; ///< no volume stops it before this t: it starts on what is there
 
     [[nodiscard]] Vec3d at(double t) const { return origin + to_double(direction) * t; }
     [[nodiscard]] float width_at(float t) const { return width + spread * t; }

@@ -66,6 +66,7 @@ Volume::Volume(VolumePyramid pyramid, const Affine& to_world, std::vector<std::u
       to_world_(to_world),
       to_object_(inverse(to_world)),
       rotated_(!is_identity(to_world)),
+      scale_(static_cast<float>(std::cbrt(std::fabs(to_world.determinant())))),
       materials_(std::move(materials)) {
     bool finest = true;
     for (const auto& level : pyramid_) {
@@ -108,7 +109,7 @@ void Volume::walk(const Ray& ray,
     if (object_bounds_.empty()) return; // no ray would ever leave it
     const Vec3d origin = to_object_.point(ray.origin);
     const Vec3d direction = to_object_.direction(to_double(ray.direction));
-    const Range range = clip(origin, direction, 0.0f, ray.t_max, object_bounds_);
+    const Range range = clip(origin, direction, ray.clear, ray.t_max, object_bounds_);
     for (float t = range.t0; t < range.t1 && !walker.stopped();) {
         // the level holds until the footprint asks for the next
         float end = range.t1;
@@ -166,11 +167,10 @@ float Volume::transmittance(const Ray& ray,
     return walker.transmittance();
 }
 
-Scatterer Volume::scatterer(const VolumeHit& hit,
-                            Vec3f wi,
-                            std::span<const ScatterMaterial> materials,
-                            StreamRandom& random,
-                            std::uint32_t& material) const {
+VolumeScatter Volume::scatter(const VolumeHit& hit,
+                              Vec3f wi,
+                              std::span<const ScatterMaterial> materials,
+                              StreamRandom& random) const {
     const VolumeLevel& level = *pyramid_[static_cast<std::size_t>(hit.level)];
     const VolumeLevel::LobeRange range = level.lobes_of(*hit.leaf, hit.voxel);
     const Vec3f from = rotated_ ? to_float(normalize(to_object_.direction(to_double(wi)))) : wi;
@@ -202,9 +202,13 @@ Scatterer Volume::scatterer(const VolumeHit& hit,
         if (random.uniform() < seen) break;
     }
 
-    Scatterer out;
-    material = materials_[level.lobe(chosen).material];
-    out.material = materials[material];
+    VolumeScatter drawn;
+    drawn.material = materials_[level.lobe(chosen).material];
+    drawn.fiber = fiber;
+    drawn.size = fiber ? level.info().materials[level.lobe(chosen).material].fiber_radius * scale_
+                       : static_cast<float>(std::ldexp(voxel_size_, hit.level));
+    Scatterer& out = drawn.scatterer;
+    out.material = materials[drawn.material];
     if (const LobeMaps* maps = level.maps(chosen)) {
         constexpr float kUnit = 1.0f / 255.0f;
         for (int a = 0; a < 3; ++a) {
@@ -246,7 +250,7 @@ Scatterer Volume::scatterer(const VolumeHit& hit,
     out.axis = axis;
     out.tangent = tangent;
     out.lobe = S;
-    return out;
+    return drawn;
 }
 
 } // namespace heddle

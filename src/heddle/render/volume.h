@@ -27,6 +27,15 @@ struct VolumeHit {
     std::int64_t voxel = 0;
 };
 
+/// What a flight ended on.
+struct VolumeScatter {
+    Scatterer scatterer;
+    std::uint32_t material = 0; ///< of the scene's
+    bool fiber = false;         ///< a tangent was drawn; else a normal
+    float size =
+        0.0f; ///< world units: of a fiber its radius, 0 where unknown; else the voxel's edge
+};
+
 /// Which level a ray walks.
 struct LevelChoice {
     int forced = -1;     ///< this one everywhere; -1: by the ray's width
@@ -60,12 +69,10 @@ public:
     /// Draws what the ray hit: lobe and direction by how much of them is seen from `wi`.
     /// @param wi         unit, towards where the ray came from, world
     /// @param materials  the scene's
-    /// @param material   the drawn lobe's, of the scene's
-    [[nodiscard]] Scatterer scatterer(const VolumeHit& hit,
-                                      Vec3f wi,
-                                      std::span<const ScatterMaterial> materials,
-                                      StreamRandom& random,
-                                      std::uint32_t& material) const;
+    [[nodiscard]] VolumeScatter scatter(const VolumeHit& hit,
+                                        Vec3f wi,
+                                        std::span<const ScatterMaterial> materials,
+                                        StreamRandom& random) const;
 
     /// Of the finest level that is there, in the world.
     [[nodiscard]] Bounds bounds() const { return world_bounds_; }
@@ -85,6 +92,7 @@ private:
     VolumePyramid pyramid_;
     Affine to_world_, to_object_;
     bool rotated_ = false;
+    float scale_ = 1.0f; ///< mean factor of lengths
     std::vector<std::uint32_t> materials_;
     std::vector<Bounds> level_bounds_; ///< of each level, in the object's space
     Bounds object_bounds_, world_bounds_;

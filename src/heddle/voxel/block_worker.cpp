@@ -59,6 +59,9 @@ VoxelGridInfo VoxelizeContext::info() const {
                        .command = options.command};
     info.fields.masks = options.keep_sums;
     for (YarnType& yarn : info.yarns) yarn.slice.texels.clear();
+    for (std::size_t m = 0; m < info.materials.size(); ++m) {
+        info.materials[m].fiber_radius = mean_fiber_radius(geometry, static_cast<std::uint32_t>(m));
+    }
     return info;
 }
 

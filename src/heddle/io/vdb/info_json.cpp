@@ -29,6 +29,9 @@ struct Writer {
         out[key] = {v.x, v.y, v.z};
     }
     void operator()(const char* key, const MeanSd& v) { out[key] = {v.mean, v.sd}; }
+    void where_known(const char* key, float value) {
+        if (value > 0.0f) out[key] = value;
+    }
     template <typename Enum, std::size_t N>
     void operator()(const char* key, const Enum& e, const std::array<const char*, N>& names) {
         out[key] = names.at(static_cast<std::size_t>(e));
@@ -39,6 +42,12 @@ struct Reader {
     const json& in;
 
     void operator()(const char* key, float& value) const { value = number(in.at(key)); }
+    /// Not every file has it.
+    void where_known(const char* key, float& value) const {
+        if (!in.contains(key)) return;
+        const float v = number(in.at(key));
+        value = v > 0.0f && std::isfinite(v) ? v : 0.0f;
+    }
     void operator()(const char* key, double& value) const { value = in.at(key).get<double>(); }
     template <typename T>
     void operator()(const char* key, T& value) const {
@@ -83,6 +92,7 @@ void visit_material(Visitor& field, MaterialT& m) {
     field("normal_scale", m.normal_scale);
     field("height_scale", m.height_scale);
     field("height_offset", m.height_offset);
+    field.where_known("fiber_radius", m.fiber_radius);
 }
 
 template <typename Visitor, typename YarnT>

@@ -1,0 +1,31 @@
+#include <heddle/geom/geometry.h>
+
+namespace heddle {
+namespace {
+
+/// Radius of a fiber of the yarn, per unit of the yarn's radius.
+double share_of_yarn(const YarnType& yarn) {
+    if (yarn.model == YarnModel::Solid) return 1.0;
+    return static_cast<double>(yarn.fiber_radius) / static_cast<double>(yarn.model_radius);
+}
+
+} // namespace
+
+float mean_fiber_radius(const Geometry& geometry, std::uint32_t material) {
+    double sum = 0.0;
+    double points = 0.0;
+    for (const CurveSet& set : geometry.curves) {
+        if (set.material != material) continue;
+        const YarnType* yarn = geometry.yarn_of(set);
+        const double share = yarn == nullptr ? 1.0 : share_of_yarn(*yarn);
+        const bool fixed = yarn != nullptr && yarn->radius > 0.0f;
+        for (std::size_t i = 0; i < set.points.size(); ++i) {
+            const float radius = fixed ? yarn->radius : set.radius_at(i);
+            sum += share * static_cast<double>(radius);
+        }
+        points += static_cast<double>(set.points.size());
+    }
+    return points > 0.0 ? static_cast<float>(sum / points) : 0.0f;
+}
+
+} // namespace heddle
