@@ -29,7 +29,8 @@ struct View {
 };
 
 std::vector<View> make_views() {
-    std::vector<View> views{{"x", {{1, 0, 0}}}, {"y", {{0, 1, 0}}}, {"z", {{0, 0, 1}}}, {"oblique", {}}};
+    std::vector<View> views{
+        {"x", {{1, 0, 0}}}, {"y", {{0, 1, 0}}}, {"z", {{0, 0, 1}}}, {"oblique", {}}};
     StreamRandom random{5};
     for (int i = 0; i < 4; ++i) { // |w_z| from .25 to 1
         const double z = 0.25 + 0.75 * static_cast<double>(random.uniform());
@@ -120,10 +121,12 @@ void run(const std::string& path, int levels) {
     scene.integrator.level = 0;
     Progress silent;
     Stage volumes(scene, {false}, silent);
-    while (volumes.load_next_level()) {}
+    while (volumes.load_next_level()) {
+    }
     Stage traced(scene, {true}, silent);
     if (volumes.scene().volumes.empty() || !traced.scene().surfaces) {
-        throw Error(ErrorCode::BadFile, "needs an object with a volume and geometry", "", {.path = path});
+        throw Error(ErrorCode::BadFile, "needs an object with a volume and geometry", "",
+                    {.path = path});
     }
     const std::vector<Transport> transports{Transport::Product, Transport::Threshold,
                                             Transport::Footprint};

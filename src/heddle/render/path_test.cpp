@@ -226,8 +226,7 @@ TEST(TracePath, OneVoxelUnderASunIsTheQuadratureOfItsDepth) {
     hit.leaf = volume.pyramid()[0]->find_leaf({0, 0, 0}).leaf;
     MeanOf phase;
     for (int i = 0; i < 20000; ++i) {
-        std::uint32_t material = 0;
-        const Scatterer at = volume.scatterer(hit, {0, 0, 1}, scene.materials, random, material);
+        const Scatterer at = volume.scatter(hit, {0, 0, 1}, scene.materials, random).scatterer;
         phase.add(static_cast<double>(evaluate(at, {0, 0, 1}, sun.direction * -1.0f).y));
     }
     double expected = 0.0;
@@ -249,9 +248,8 @@ TEST(TracePath, OneVoxelUnderASunIsTheQuadratureOfItsDepth) {
 double by_chance(const PathScene& scene, const Ray& ray, StreamRandom& random) {
     VolumeHit hit;
     if (!scene.volumes[0].sample_flight(ray, Transport::Automatic, {}, random, hit)) return 0.0;
-    std::uint32_t material = 0;
     const Scatterer at =
-        scene.volumes[0].scatterer(hit, ray.direction * -1.0f, scene.materials, random, material);
+        scene.volumes[0].scatter(hit, ray.direction * -1.0f, scene.materials, random).scatterer;
     const float a = random.uniform(), b = random.uniform();
     const ScatterSample s = sample(at, ray.direction * -1.0f, {a, b, random.uniform()});
     if (!(s.pdf > 0.0f)) return 0.0;

@@ -257,7 +257,7 @@ struct Drawn {
     SymmetricMatrix moment{};
 };
 
-/// What `scatterer` draws of one voxel seen from `wi`.
+/// What `scatter` draws of one voxel seen from `wi`.
 Drawn draw_axes(const Volume& volume, Vec3f wi, const ScatterMaterial& material, int count) {
     Drawn out;
     StreamRandom random{12};
@@ -266,9 +266,9 @@ Drawn draw_axes(const Volume& volume, Vec3f wi, const ScatterMaterial& material,
     hit.leaf = volume.pyramid()[0]->find_leaf({0, 0, 0}).leaf;
     hit.voxel = hit.leaf->find({0, 0, 0});
     for (int i = 0; i < count; ++i) {
-        std::uint32_t which = 0;
-        const Scatterer s = volume.scatterer(hit, wi, materials, random, which);
-        EXPECT_EQ(which, 1u);
+        const VolumeScatter drawn = volume.scatter(hit, wi, materials, random);
+        const Scatterer& s = drawn.scatterer;
+        EXPECT_EQ(drawn.material, 1u);
         EXPECT_NEAR(length(s.axis), 1.0f, 1e-4f);
         EXPECT_NEAR(dot(s.axis, s.tangent), 0.0f, 1e-4f);
         out.first.add(std::fabs(s.axis.x) > std::fabs(s.axis.y) ? 1.0 : 0.0);
@@ -328,8 +328,7 @@ TEST(Volume, SurfacesAreMetOnTheViewersSide) {
     const std::vector<ScatterMaterial> materials(2);
     for (int i = 0; i < 200; ++i) {
         const Vec3f wi = random_direction(random);
-        std::uint32_t which = 0;
-        EXPECT_GE(dot(volume.scatterer(hit, wi, materials, random, which).axis, wi), 0.0f);
+        EXPECT_GE(dot(volume.scatter(hit, wi, materials, random).scatterer.axis, wi), 0.0f);
     }
 }
 
