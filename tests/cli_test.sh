@@ -271,6 +271,7 @@ fails 2 "unknown transport 'prodct'" render transport.toml -o x.exr
 fails 2 "x.jpg' must end in .exr or .png" render one.vdb -o x.jpg
 fails 2 "option --output is missing" render one.vdb
 fails 2 "--size" render one.vdb -o x.exr --size 0x10
+fails 2 "2^28" render one.vdb -o x.exr --size 65536x65536
 fails 2 "--samples" render one.vdb -o x.exr --samples 0
 fails 2 "--exposure" render one.vdb -o x.png --exposure nan
 fails 2 "--geometry is of no use here" render one.vdb -o x.exr --geometry

@@ -34,6 +34,9 @@ Scene asked_scene(const Arguments& arguments) {
     }
     if (arguments.given("size")) {
         const std::vector<double> size = arguments.numbers("size", 'x');
+        if (size[0] * size[1] > 0x1p28) { // as a scene's
+            throw UsageError("--size: more than 2^28 pixels; make the picture smaller");
+        }
         scene.width = static_cast<std::int32_t>(size[0]);
         scene.height = static_cast<std::int32_t>(size[1]);
     }
