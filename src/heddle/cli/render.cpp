@@ -1,12 +1,12 @@
 #include <heddle/base/error.h>
 #include <heddle/base/memory.h>
-#include <heddle/base/random.h>
 #include <heddle/cli/commands.h>
 #include <heddle/cli/load.h>
 #include <heddle/cli/progress_bar.h>
 #include <heddle/cli/report.h>
 #include <heddle/io/input_file.h>
 #include <heddle/stage/render_job.h>
+#include <heddle/stage/scene_hash.h>
 
 #include <filesystem>
 #include <limits>
@@ -25,11 +25,18 @@ Scene asked_scene(const Arguments& arguments) {
         object.volume = path;
         object.instances.resize(1);
         scene.objects.push_back(object);
+        if (arguments.given("geometry")) {
+            throw UsageError("--geometry is of no use here: a .vdb has voxels alone; name its "
+                             "geometry in a scene");
+        }
     } else {
         scene = read_scene(path);
     }
     if (arguments.given("size")) {
         const std::vector<double> size = arguments.numbers("size", 'x');
+        if (size[0] * size[1] > 0x1p28) { // as a scene's
+            throw UsageError("--size: more than 2^28 pixels; make the picture smaller");
+        }
         scene.width = static_cast<std::int32_t>(size[0]);
         scene.height = static_cast<std::int32_t>(size[1]);
     }
@@ -44,35 +51,15 @@ Scene asked_scene(const Arguments& arguments) {
     return scene;
 }
 
-/// Names what the picture depends on: the scene's text, its files' sizes and times, the options.
-std::uint64_t hash_of(const Scene& scene, const Arguments& arguments) {
-    std::uint64_t hash = 1;
-    const auto add = [&](const std::string& text) {
-        for (const char c : text) hash = hash64(hash, static_cast<unsigned char>(c));
-    };
-    const auto add_file = [&](const std::string& path) {
-        if (path.empty()) return;
-        std::error_code none;
-        add(path);
-        hash = hash64(hash, std::filesystem::file_size(path, none),
-                      static_cast<std::uint64_t>(
-                          std::filesystem::last_write_time(path, none).time_since_epoch().count()));
-    };
-    add_file(arguments.text("FILE"));
-    for (const SceneObject& object : scene.objects) {
-        add_file(object.volume);
-        add_file(object.geometry);
-    }
-    add(str(arguments.given("geometry"), ' ', scene.integrator.level, ' ', scene.integrator.seed,
-            ' ', scene.integrator.transport, ' ', scene.integrator.max_depth));
-    return hash;
-}
-
 void run_render(const Arguments& arguments, Report& report, ProgressBar& bar) {
     Scene scene = asked_scene(arguments);
     RenderJob job;
     job.output = arguments.text("output");
-    check_output(job.output, suffix_of(job.output) == ".png" ? ".png" : ".exr");
+    const std::string suffix = suffix_of(job.output);
+    if (suffix != ".exr" && suffix != ".png") {
+        throw UsageError(str("--output: '", job.output, "' must end in .exr or .png"));
+    }
+    check_output(job.output, suffix);
     job.samples = scene.integrator.samples;
     job.seconds = arguments.given("time") ? arguments.number("time") : 0.0;
     job.noise = arguments.given("noise") ? arguments.number("noise") : 0.0;
@@ -81,7 +68,6 @@ void run_render(const Arguments& arguments, Report& report, ProgressBar& bar) {
     }
     job.exposure = arguments.number("exposure");
     job.resume = arguments.given("resume");
-    job.scene_hash = hash_of(scene, arguments);
     job.command = arguments.command_line;
 
     PathOptions options;
@@ -91,8 +77,10 @@ void run_render(const Arguments& arguments, Report& report, ProgressBar& bar) {
     options.level_offset = static_cast<float>(arguments.number("level-offset"));
     options.transport = transport_from(scene.integrator.transport);
 
+    job.scene_hash = hash_of_scene(scene, options, arguments.given("geometry"));
+
     bar.begin("read", "files", 1);
-    Stage stage(scene, {arguments.given("geometry")}, bar);
+    Stage stage(scene, {arguments.given("geometry"), options.level_offset}, bar);
     const RenderOutcome outcome =
         render_to_file(stage, options, scene.integrator.seed, scene.width, scene.height, job, bar);
     bar.finish();

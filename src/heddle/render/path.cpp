@@ -148,6 +148,8 @@ private:
                                 : 1.0f;
         Ray shadow = leave(event, at, light.direction, width, spread_of(1.0f, 0.0f));
         shadow.t_max = light.distance < kInfinity ? light.distance * 0.9999f : kInfinity;
+        LightHit nearer; // a lamp ends the paths that meet it by chance, so it hides what is behind
+        if (scene_.lights.intersect(shadow, nearer)) return {};
         return scattered * (share * transmittance(shadow));
     }
 

@@ -57,8 +57,8 @@ public:
         const std::uint64_t keys = hash64(pixel_, pairs_++);
         const auto low = static_cast<std::uint32_t>(keys);
         const auto high = static_cast<std::uint32_t>(keys >> 32);
-        const std::uint32_t i = detail::owen_scramble(detail::reverse_bits(sample_), low);
-        const std::uint32_t index = detail::reverse_bits(i);
+        // aligned runs of 2^k samples stay aligned runs: each is a (0, k, 2) net of its own
+        const std::uint32_t index = detail::owen_scramble(sample_, low);
         return {to_float(detail::owen_scramble(detail::reverse_bits(index), high)),
                 to_float(detail::owen_scramble(detail::sobol_second(index), high ^ 0x9e3779b9u))};
     }

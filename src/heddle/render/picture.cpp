@@ -1,5 +1,7 @@
 #include <heddle/render/picture.h>
 
+#include <heddle/sggx/eigen.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -19,8 +21,19 @@ double variance_of_mean(const PixelSums& p) {
     return std::max(0.0, (p.square / n - mean * mean) / (n - 1.0));
 }
 
+/// As channels_of says.
+Vec3d mean_axis(const PixelSums& p) {
+    if (p.hits == 0) return {};
+    const Vec3d d = decompose(p.axes).axis[0];
+    const Vec3d sum = to_double(p.axis);
+    const bool sided = length(sum) > 0.5 * p.hits; // axes of random sign sum to far less
+    const int most = std::fabs(d.x) > std::fabs(d.y) ? (std::fabs(d.x) > std::fabs(d.z) ? 0 : 2)
+                                                     : (std::fabs(d.y) > std::fabs(d.z) ? 1 : 2);
+    return d * ((sided ? dot(sum, d) : d[most]) < 0.0 ? -1.0 : 1.0);
+}
+
 std::uint8_t encode_srgb(double x) {
-    const double c = std::clamp(x, 0.0, 1.0); // NaN gives 0
+    const double c = x > 0.0 ? std::min(x, 1.0) : 0.0; // NaN gives 0
     const double s = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055;
     return static_cast<std::uint8_t>(s * 255.0 + 0.5);
 }
@@ -44,7 +57,10 @@ void PixelSums::add(const PathSample& sample) {
     depth += static_cast<double>(first.depth);
     level += static_cast<double>(first.level);
     albedo = albedo + first.albedo;
-    axis = axis + first.axis * (dot(axis, first.axis) < 0.0f ? -1.0f : 1.0f); // axial
+    const Vec3f d = first.axis;
+    axis = axis + d;
+    axes = {axes.xx + d.x * d.x, axes.yy + d.y * d.y, axes.zz + d.z * d.z,
+            axes.xy + d.x * d.y, axes.xz + d.x * d.z, axes.yz + d.y * d.z};
 }
 
 double Picture::noise() const {
@@ -80,8 +96,7 @@ std::vector<PictureChannel> channels_of(const Picture& picture, bool all) {
     add("transmittance", [&](const PixelSums& p) { return mean(p.transmittance, p); });
     for (int a = 0; a < 3; ++a) {
         const char* const names[] = {"axis.X", "axis.Y", "axis.Z"};
-        add(names[a],
-            [&](const PixelSums& p) { return static_cast<double>(normalize(p.axis, Vec3f{})[a]); });
+        add(names[a], [&](const PixelSums& p) { return mean_axis(p)[a]; });
     }
     for (int a = 0; a < 3; ++a) {
         const char* const names[] = {"albedo.R", "albedo.G", "albedo.B"};

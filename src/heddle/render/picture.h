@@ -2,6 +2,7 @@
 
 #include <heddle/base/vec.h>
 #include <heddle/render/path.h>
+#include <heddle/sggx/sggx.h>
 
 #include <cstdint>
 #include <string>
@@ -17,6 +18,7 @@ struct PixelSums {
     double depth = 0.0; ///< of the samples that met something, as the rest
     double level = 0.0;
     Vec3f axis{}, albedo{};
+    SymmetricMatrix axes{}; ///< second moment: tangents have no sign
     std::uint32_t samples = 0;
     std::uint32_t hits = 0;
     std::uint32_t material = 0; ///< of the first sample that met something
@@ -47,6 +49,9 @@ struct PictureChannel {
 
 /// R G B A and, where asked, depth, transmittance, axis.X Y Z, albedo.R G B, level, material, samples,
 /// variance (of the mean luminance).
+///
+/// axis is the direction along which the first hits' axes gather: normals on the side that they
+/// face, tangents, which have no side, with their largest component positive.
 [[nodiscard]] std::vector<PictureChannel> channels_of(const Picture& picture, bool all);
 
 /// R, G, B, A in 8 bits: exposed, and by the sRGB curve.

@@ -106,6 +106,7 @@ void Volume::walk(const Ray& ray,
                   const LevelChoice& choice,
                   TransportWalker& walker,
                   const Note& note) const {
+    if (object_bounds_.empty()) return; // no ray would ever leave it
     const Vec3d origin = to_object_.point(ray.origin);
     const Vec3d direction = to_object_.direction(to_double(ray.direction));
     const Range range = clip(origin, direction, ray.clear, ray.t_max, object_bounds_);
@@ -118,11 +119,14 @@ void Volume::walk(const Ray& ray,
             const float shift = choice.offset + choice.draw;
             const float fine = std::log2(width / static_cast<float>(voxel_size_)) + shift;
             wanted = static_cast<int>(std::clamp(std::floor(fine), 0.0f, 62.0f));
-            const float next = static_cast<float>(voxel_size_) *
-                               std::exp2(static_cast<float>(wanted) + 1.0f - shift);
+            const auto until = [&](int level) { // t at which the ray is too wide for it
+                const float next = static_cast<float>(voxel_size_) *
+                                   std::exp2(static_cast<float>(level) + 1.0f - shift);
+                return (next - ray.width) / ray.spread;
+            };
             if (ray.spread > 0.0f) {
-                const float until = (next - ray.width) / ray.spread;
-                if (until > t * 1.00001f) end = std::min(end, until);
+                if (until(wanted) <= t * 1.00001f) ++wanted; // rounding: the last one's end
+                end = std::min(end, std::max(until(wanted), t * 1.00001f));
             }
         }
         const int number = usable_level(wanted);
@@ -227,6 +231,7 @@ VolumeScatter Volume::scatter(const VolumeHit& hit,
     if (flakes && fiber) { // flakes lie around the fiber
         S = normals_of_tangents(S);
         axis = sample_vndf(factor(S), from, random);
+        tangent = any_perpendicular(axis);
     }
     if (rotated_) {
         const bool normal = !fiber || flakes;

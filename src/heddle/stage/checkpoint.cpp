@@ -1,6 +1,7 @@
 #include <heddle/stage/checkpoint.h>
 
 #include <heddle/base/error.h>
+#include <heddle/base/random.h>
 #include <heddle/io/input_file.h>
 #include <heddle/io/output_file.h>
 
@@ -14,12 +15,24 @@ namespace {
 static_assert(std::is_trivially_copyable_v<PixelSums>, "written as it lies");
 
 struct Head {
-    std::array<char, 8> magic{'H', 'E', 'D', 'D', 'L', 'E', 'C', '1'};
+    std::array<char, 8> magic{'H', 'E', 'D', 'D', 'L', 'E', 'C', '2'};
     std::uint64_t hash = 0;
     std::int32_t width = 0;
     std::int32_t height = 0;
     std::uint64_t pixel_bytes = sizeof(PixelSums);
+    std::uint64_t checksum = 0; ///< of the pixels
 };
+
+std::uint64_t checksum_of(const Picture& picture) {
+    static_assert(sizeof(PixelSums) % sizeof(std::uint64_t) == 0);
+    std::uint64_t sum = 0;
+    for (const PixelSums& pixel : picture.pixels) {
+        std::array<std::uint64_t, sizeof(PixelSums) / sizeof(std::uint64_t)> words;
+        std::memcpy(words.data(), &pixel, sizeof(pixel));
+        for (const std::uint64_t word : words) sum = hash64(sum, word);
+    }
+    return sum;
+}
 
 } // namespace
 
@@ -28,6 +41,7 @@ void write_checkpoint(const std::string& path, std::uint64_t hash, const Picture
     head.hash = hash;
     head.width = picture.width;
     head.height = picture.height;
+    head.checksum = checksum_of(picture);
     OutputFile out(path);
     out.write(&head, sizeof(head));
     out.write(picture.pixels.data(), picture.pixels.size() * sizeof(PixelSums));
@@ -61,6 +75,7 @@ Picture read_checkpoint(const std::string& path,
         refuse(str("has ", file.size_bytes(), " bytes, ", sizeof(Head) + bytes, " were written"));
     }
     file.read_at(sizeof(head), picture.pixels.data(), bytes);
+    if (checksum_of(picture) != head.checksum) refuse("is damaged: its pixels' checksum differs");
     return picture;
 }
 

@@ -24,26 +24,35 @@ double since(Clock::time_point start) {
 
 constexpr double kSaveEvery = 20.0; // seconds between pictures written on the way
 
-/// Samples per pixel that the picture should have after the next pass.
-std::uint32_t
-next_target(std::uint32_t done, const RenderJob& job, double spent, double in_passes) {
-    std::uint64_t target = std::max<std::uint64_t>(1, std::uint64_t{2} * done);
-    target = std::min(target, static_cast<std::uint64_t>(job.samples));
-    if (done == 0) return static_cast<std::uint32_t>(target);
-    const double each = in_passes / done;
+/// How far a job has come.
+struct State {
+    std::uint32_t samples = 0; ///< per pixel
+    std::uint32_t resumed = 0; ///< of these, from a checkpoint
+    double spent = 0.0;        ///< seconds, of the whole job
+    double each = 0.0;         ///< seconds a sample takes; 0: not known yet
+};
+
+/// Samples per pixel that the picture should have after the next pass: twice as many, but no more
+/// than fit into the time until the next save or the end, or than the noise seems to need.
+std::uint32_t next_target(const State& at, const Picture& picture, const RenderJob& job) {
+    const double samples = at.samples;
+    double more = std::max(1.0, samples - at.resumed);
     double room = kSaveEvery;
-    if (job.seconds > 0.0) room = std::min(room, job.seconds - spent);
-    const double fit = std::max(1.0, room / std::max(each, 1e-9));
-    if (fit < static_cast<double>(target - done)) {
-        target = done + static_cast<std::uint64_t>(fit);
+    if (job.seconds > 0.0) room = std::min(room, job.seconds - at.spent);
+    if (at.each > 0.0) more = std::min(more, room / at.each);
+    if (job.noise > 0.0 && at.samples >= 4) {
+        const double times = picture.noise() / job.noise;
+        more = std::min(more, std::ceil(samples * (times * times - 1.0)));
     }
-    return static_cast<std::uint32_t>(target);
+    return static_cast<std::uint32_t>(
+        std::min(samples + std::max(1.0, more), static_cast<double>(job.samples)));
 }
 
-bool is_done(const Picture& picture, std::uint32_t samples, const RenderJob& job, double spent) {
-    if (samples >= job.samples) return true;
-    if (job.seconds > 0.0 && samples > 0 && spent >= job.seconds) return true;
-    return job.noise > 0.0 && samples >= 4 && picture.noise() <= job.noise;
+bool is_done(const State& at, const Picture& picture, const RenderJob& job) {
+    if (at.samples >= job.samples) return true;
+    // half a sample more than the time is as near as half a sample less
+    if (job.seconds > 0.0 && at.samples > 0 && at.spent + 0.5 * at.each >= job.seconds) return true;
+    return job.noise > 0.0 && at.samples >= 4 && picture.noise() <= job.noise;
 }
 
 bool is_half(const std::string& channel) {
@@ -79,13 +88,18 @@ RenderOutcome render_to_file(Stage& stage,
         picture = read_checkpoint(checkpoint, job.scene_hash, width, height);
         outcome.resumed_from = picture.pixels.empty() ? 0 : picture.pixels.front().samples;
     }
-    auto samples = static_cast<std::uint32_t>(outcome.resumed_from);
+    State at;
+    at.samples = at.resumed = static_cast<std::uint32_t>(outcome.resumed_from);
     const auto pass = [&](Picture& into, std::uint32_t from, std::uint32_t until) {
         const auto pixels = static_cast<std::int64_t>(into.pixels.size());
         progress.begin("render", "paths", pixels * (until - from));
         render_pass(stage.scene(), stage.camera(), options, seed, until, into, progress);
     };
-    if (samples == 0) {
+    const auto save = [&] {
+        write_picture(picture, job);
+        write_checkpoint(checkpoint, job.scene_hash, picture);
+    };
+    if (at.samples == 0) {
         Picture coarse(width, height);
         pass(coarse, 0, 1);
         write_picture(coarse, job);
@@ -96,34 +110,27 @@ RenderOutcome render_to_file(Stage& stage,
     outcome.load_seconds = since(start) - outcome.first_picture_seconds;
 
     Clock::time_point saved = Clock::now();
-    while (!is_done(picture, samples, job, since(start))) {
-        const std::uint32_t target =
-            next_target(samples - static_cast<std::uint32_t>(outcome.resumed_from), job,
-                        since(start), outcome.render_seconds) +
-            static_cast<std::uint32_t>(outcome.resumed_from);
-        const std::uint32_t until = std::min(target, static_cast<std::uint32_t>(job.samples));
+    for (at.spent = since(start); !is_done(at, picture, job); at.spent = since(start)) {
+        const std::uint32_t until = next_target(at, picture, job);
         const Clock::time_point began = Clock::now();
         try {
-            pass(picture, samples, until);
+            pass(picture, at.samples, until);
         } catch (const Error& e) {
-            if (e.code() == ErrorCode::Cancelled && samples > 0) {
-                write_picture(picture, job);
-                write_checkpoint(checkpoint, job.scene_hash, picture);
-            }
+            if (e.code() == ErrorCode::Cancelled && at.samples > 0) save();
             throw;
         }
         outcome.render_seconds += since(began);
-        samples = until;
-        if (since(saved) > kSaveEvery && samples < job.samples) {
-            write_picture(picture, job);
-            write_checkpoint(checkpoint, job.scene_hash, picture);
+        at.samples = until;
+        at.each = outcome.render_seconds / (at.samples - at.resumed);
+        if (since(saved) > kSaveEvery && at.samples < job.samples) {
+            save();
             saved = Clock::now();
         }
     }
     write_picture(picture, job);
     std::error_code ignored;
     std::filesystem::remove(checkpoint, ignored);
-    outcome.samples = samples;
+    outcome.samples = at.samples;
     outcome.noise = picture.noise();
     return outcome;
 }

@@ -13,7 +13,7 @@ namespace heddle {
 struct RenderJob {
     std::string output;           ///< .exr or .png
     std::int64_t samples = 64;    ///< per pixel: stops there
-    double seconds = 0.0;         ///< 0: no limit; checked between passes
+    double seconds = 0.0;         ///< 0: no limit; of the whole job, kept to half a sample
     double noise = 0.0;           ///< 0: no limit; Picture::noise
     double exposure = 0.0;        ///< stops, of a .png
     bool all_channels = true;     ///< of an .exr

@@ -15,9 +15,6 @@
 namespace heddle {
 namespace {
 
-/// Levels of up to so many voxels are read at once: they are there before a picture could be missed.
-constexpr std::int64_t kCoarseVoxels = 400'000;
-
 bool is_traced(const SceneObject& object, const StageOptions& options) {
     const bool explicit_too = !object.geometry.empty() || object.generate.has_value();
     return object.volume.empty() || (options.geometry && explicit_too);
@@ -38,32 +35,33 @@ double distance_to(const Bounds& box, Vec3d p) {
 } // namespace
 
 Stage::Stage(const Scene& scene, const StageOptions& options, Progress& progress)
-    : width_(scene.width), height_(scene.height) {
+    : width_(scene.width),
+      height_(scene.height),
+      level_(scene.integrator.level),
+      level_offset_(options.level_offset) {
     for (const SceneObject& object : scene.objects) {
         if (!is_traced(object, options)) open_volume(object, scene);
     }
     trace_geometry(scene, options, progress);
-    for (OpenVolume& volume : open_) { // the coarse levels: bounds, and a first picture
-        volume.next = static_cast<int>(volume.pyramid.size()) - 1;
-    }
-    for (bool more = true; more;) {
-        more = false;
-        for (OpenVolume& v : open_) {
-            const auto level = static_cast<std::size_t>(std::max(v.next, 0));
-            if (v.next < 0 ||
-                (v.pyramid[v.pyramid.size() - 1] && v.voxels[level] > kCoarseVoxels)) {
-                continue;
-            }
-            v.pyramid[level] = std::make_shared<VolumeLevel>(*read_vdb(v.path, v.next));
-            --v.next;
-            more = true;
-        }
-    }
+    for (OpenVolume& volume : open_) read_level(volume);
     rebuild_volumes();
-    place_camera(scene);
-    choose_levels(scene);
+    if (scene.camera) { // it says which levels are needed; else their bounds say where it stands
+        place_camera(scene);
+        choose_levels();
+    }
+    while (read_next(options.coarse_voxels)) progress.check();
+    if (!scene.camera) {
+        place_camera(scene);
+        choose_levels();
+    }
     const Bounds box = bounds();
     scene_.lights = LightSet(load_lights(scene, view_.up), 0.5 * length(box.size()));
+}
+
+void Stage::read_level(OpenVolume& volume) {
+    volume.pyramid[static_cast<std::size_t>(volume.next)] =
+        std::make_shared<VolumeLevel>(*read_vdb(volume.path, volume.next));
+    --volume.next;
 }
 
 void Stage::open_volume(const SceneObject& object, const Scene& scene) {
@@ -73,6 +71,10 @@ void Stage::open_volume(const SceneObject& object, const Scene& scene) {
         throw Error(ErrorCode::BadFile,
                     str("has no level ", scene.integrator.level, " (levels 0 to ", count - 1, ")"),
                     "give a level that it has", {.path = object.volume});
+    }
+    if (infos.front().voxel_count == 0) {
+        throw Error(ErrorCode::BadFile, "has no voxels", "take the object out of the scene",
+                    {.path = object.volume});
     }
     OpenVolume volume;
     volume.path = object.volume;
@@ -84,7 +86,7 @@ void Stage::open_volume(const SceneObject& object, const Scene& scene) {
     for (const Material& material : infos.front().materials) {
         volume.materials.push_back(material_of(scene, object, material));
     }
-    if (infos.front().voxel_count == 0) return; // nothing to see in it
+    volume.next = count - 1;
     open_.push_back(std::move(volume));
 }
 
@@ -92,15 +94,17 @@ std::uint32_t
 Stage::material_of(const Scene& scene, const SceneObject& object, const Material& material) {
     std::string name = object.name + "/" + material.name;
     ScatterMaterial scatter = scatter_material_of(material);
+    bool shared = false; // two materials of an object may have one name
     for (const std::string& key : {material.name, std::string("*")}) {
         const auto named = object.materials.find(key);
         if (named == object.materials.end()) continue;
         name = named->second;
         scatter = scene.materials.at(name);
+        shared = true;
         break;
     }
     const auto at = std::find(names_.begin(), names_.end(), name);
-    if (at != names_.end()) return static_cast<std::uint32_t>(at - names_.begin());
+    if (shared && at != names_.end()) return static_cast<std::uint32_t>(at - names_.begin());
     names_.push_back(name);
     scene_.materials.push_back(scatter);
     return static_cast<std::uint32_t>(names_.size() - 1);
@@ -153,55 +157,49 @@ void Stage::place_camera(const Scene& scene) {
         view_.view_height = from.view_height;
         view_.lens_radius = from.lens_radius;
         view_.focus_distance = from.focus_distance;
-    } else { // three quarters from the front, from above; flat things are looked at from above
+    } else { // three quarters from the front, from above; flat things are looked at from their face
         const Vec3d size = bounds().size();
-        const bool flat = size.z < 0.5 * std::min(size.x, size.y);
-        view_ = flat ? frame(bounds(), {0.25, -0.8, 1.0}, {0, 1, 0},
-                             static_cast<double>(width_) / height_)
-                     : frame(bounds(), {0.5, 0.35, 1.0}, {0, 1, 0},
-                             static_cast<double>(width_) / height_);
+        Vec3d from{0.5, 0.35, 1.0};
+        if (size.z < 0.5 * std::min(size.x, size.y)) from = {0.25, -0.8, 1.0};
+        if (size.y < 0.5 * std::min(size.x, size.z)) from = {0.25, 1.0, 0.8};
+        view_ = frame(bounds(), from, {0, 1, 0}, static_cast<double>(width_) / height_);
     }
     camera_ = std::make_unique<Camera>(view_, width_, height_);
 }
 
-/// No ray asks for a level finer than that of the narrowest footprint on the object's box.
-void Stage::choose_levels(const Scene& scene) {
-    const Ray middle = camera_->ray(0.5f * static_cast<float>(width_),
-                                    0.5f * static_cast<float>(height_), {0.5f, 0.5f});
+/// No ray asks for a level finer than that of the narrowest footprint on the object's box: a corner's
+/// ray, which widens least, at the box's least distance. Scattered rays are wider than what they leave.
+void Stage::choose_levels() {
+    const Ray corner = camera_->ray(0.0f, 0.0f, {0.0f, 0.0f});
     std::size_t at = 0;
     for (OpenVolume& volume : open_) {
         const int last = static_cast<int>(volume.pyramid.size()) - 1;
         volume.finest_wanted = last;
         for (const Affine& instance : volume.instances) {
-            const Volume& placed = scene_.volumes[at++];
-            const double away = distance_to(placed.bounds(), view_.eye);
-            // towards the picture's edge a pixel is narrower by the cosine, in width and in distance
-            const double half = 0.5 * view_.view_angle;
-            const double edge = view_.orthographic ? 1.0 : std::pow(std::cos(half), 2.0) * 0.5;
-            const double width = static_cast<double>(middle.width) +
-                                 static_cast<double>(middle.spread) * away * edge;
-            const double voxel = volume.voxel_size * scale_of(instance);
-            const int needed =
-                width > 0.0 ? static_cast<int>(std::floor(std::log2(width / voxel))) : 0;
-            volume.finest_wanted = std::clamp(needed, 0, volume.finest_wanted);
+            const double away = std::max(
+                0.0, distance_to(scene_.volumes[at++].bounds(), view_.eye) - view_.lens_radius);
+            const double width =
+                static_cast<double>(corner.width) + static_cast<double>(corner.spread) * away;
+            const double level = std::log2(width / (volume.voxel_size * scale_of(instance))) +
+                                 static_cast<double>(level_offset_); // -inf: inside the box
+            const double needed = std::clamp(std::floor(level), 0.0, static_cast<double>(last));
+            volume.finest_wanted = std::min(volume.finest_wanted, static_cast<int>(needed));
         }
-        if (scene.integrator.level >= 0) {
-            volume.finest_wanted = scene.integrator.level;
-        }
+        if (level_ >= 0) volume.finest_wanted = level_;
     }
 }
 
-bool Stage::load_next_level() {
+bool Stage::read_next(std::int64_t most_voxels) {
     OpenVolume* coarsest = nullptr;
     for (OpenVolume& v : open_) {
-        if (v.next < v.finest_wanted) continue;
+        if (v.next < v.finest_wanted || v.voxels[static_cast<std::size_t>(v.next)] > most_voxels)
+            continue;
         if (coarsest == nullptr || v.next > coarsest->next) coarsest = &v;
     }
     if (coarsest == nullptr) return false;
-    auto& slot = coarsest->pyramid[static_cast<std::size_t>(coarsest->next)];
-    slot = std::make_shared<VolumeLevel>(*read_vdb(coarsest->path, coarsest->next));
-    --coarsest->next;
+    read_level(*coarsest);
     rebuild_volumes();
+    if (camera_) choose_levels(); // a finer level's box is tighter, and may be farther away
     return true;
 }
 

@@ -7,6 +7,7 @@
 #include <heddle/scene/scene.h>
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -16,18 +17,20 @@ namespace heddle {
 
 struct StageOptions {
     bool geometry = false; ///< objects that have explicit geometry are traced, not their volumes
+    float level_offset = 0.0f; ///< PathOptions::level_offset: below 0, finer levels are needed
+    /// Levels of up to so many voxels are read at once: before a picture could be missed.
+    std::int64_t coarse_voxels = 400'000;
 };
 
 /// A scene made ready: geometry loaded, lights and camera placed, volumes open with their coarse
 /// levels read. Finer levels come one at a time, and only those that the camera can ask for.
 class Stage {
 public:
-    /// @throws Error  as the readers; BadFile: a level that does not exist, an object that has nothing
-    ///                to show
+    /// @throws Error  as the readers; BadFile: a level that does not exist, a volume without voxels
     Stage(const Scene& scene, const StageOptions& options, Progress& progress);
 
     /// Reads the next finer level of a volume, coarsest first. @return false: all that is needed is there
-    bool load_next_level();
+    bool load_next_level() { return read_next(std::numeric_limits<std::int64_t>::max()); }
 
     [[nodiscard]] const PathScene& scene() const { return scene_; }
     [[nodiscard]] const Camera& camera() const { return *camera_; }
@@ -52,7 +55,10 @@ private:
     void open_volume(const SceneObject& object, const Scene& scene);
     void trace_geometry(const Scene& scene, const StageOptions& options, Progress& progress);
     void place_camera(const Scene& scene);
-    void choose_levels(const Scene& scene);
+    void choose_levels();
+    void read_level(OpenVolume& volume);
+    /// Reads the coarsest level that is wanted, not there, and of at most so many voxels.
+    bool read_next(std::int64_t most_voxels);
     void rebuild_volumes();
     [[nodiscard]] std::uint32_t
     material_of(const Scene& scene, const SceneObject& object, const Material& material);
@@ -64,6 +70,8 @@ private:
     CameraView view_;
     std::unique_ptr<Camera> camera_;
     std::int32_t width_ = 0, height_ = 0;
+    int level_ = -1; ///< forced
+    float level_offset_ = 0.0f;
 };
 
 } // namespace heddle
