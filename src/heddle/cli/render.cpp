@@ -92,7 +92,9 @@ void run_render(const Arguments& arguments, Report& report, ProgressBar& bar) {
     options.transport = transport_from(scene.integrator.transport);
 
     bar.begin("read", "files", 1);
-    Stage stage(scene, {arguments.given("geometry")}, bar);
+    const StageOptions stage_options{.geometry = arguments.given("geometry"),
+                                     .flakes = options.transport == Transport::Flakes};
+    Stage stage(scene, stage_options, bar);
     const RenderOutcome outcome =
         render_to_file(stage, options, scene.integrator.seed, scene.width, scene.height, job, bar);
     bar.finish();

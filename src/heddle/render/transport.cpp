@@ -8,7 +8,7 @@
 namespace heddle {
 
 const std::vector<std::string>& transport_names() {
-    static const std::vector<std::string> names{"product"};
+    static const std::vector<std::string> names{"product", "flakes"};
     return names;
 }
 

@@ -12,7 +12,8 @@ namespace heddle {
 
 /// How voxels of one ray are put together. docs/transport.md compares them.
 enum class Transport : std::uint8_t {
-    Product ///< each voxel on its own: extinctions add up                [Fabre26, LopezMoreno17]
+    Product, ///< each voxel on its own: extinctions add up                [Fabre26, LopezMoreno17]
+    Flakes   ///< a FlakeMedium in place of the Volume: one SGGX a voxel, interpolated [Heitz15]
 };
 
 /// Names on the command line, in the order of Transport; the first is the default.

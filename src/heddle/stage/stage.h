@@ -16,6 +16,7 @@ namespace heddle {
 
 struct StageOptions {
     bool geometry = false; ///< objects that have explicit geometry are traced, not their volumes
+    bool flakes = false;   ///< volumes are FlakeMedia of the forced level, or of the finest
 };
 
 /// A scene made ready: geometry loaded, lights and camera placed, volumes open with their coarse
@@ -50,6 +51,7 @@ private:
         int next = 0; ///< level to be read next
     };
     void open_volume(const SceneObject& object, const Scene& scene);
+    void add_flakes(const SceneObject& object, const Scene& scene);
     void trace_geometry(const Scene& scene, const StageOptions& options, Progress& progress);
     void place_camera(const Scene& scene);
     void choose_levels(const Scene& scene);
@@ -63,6 +65,7 @@ private:
     Bounds surface_bounds_;
     CameraView view_;
     std::unique_ptr<Camera> camera_;
+    std::int64_t flake_bytes_ = 0; ///< of all grids; instances share theirs
     std::int32_t width_ = 0, height_ = 0;
 };
 
