@@ -45,10 +45,9 @@ std::string grid_element(const char* name, const char* file, const MitsubaBox& b
     return str("      <volume name=\"", name, "\" type=\"gridvolume\">\n",
                "        <string name=\"filename\" value=\"", file, "\"/>\n",
                "        <boolean name=\"raw\" value=\"true\"/>\n",
-               "        <transform name=\"to_world\">\n",
-               "          <scale value=\"", list(box.bounds.size()), "\"/>\n",
-               "          <translate value=\"", list(box.bounds.lo), "\"/>\n",
-               "        </transform>\n      </volume>\n");
+               "        <transform name=\"to_world\">\n", "          <scale value=\"",
+               list(box.bounds.size()), "\"/>\n", "          <translate value=\"",
+               list(box.bounds.lo), "\"/>\n", "        </transform>\n      </volume>\n");
 }
 
 /// Three quarters from the front, from above, the ball about the content in view.
@@ -59,20 +58,18 @@ std::string camera_element(const Bounds& content) {
     const double radius = 0.5 * length(content.size());
     const double away = radius / std::sin(0.5 * kAngleDeg * std::numbers::pi / 180.0) / kTight;
     const Vec3d eye = target + normalize(Vec3d{0.5, 0.35, 1.0}) * away;
-    return str("  <sensor type=\"perspective\">\n", "    <float name=\"fov\" value=\"", kAngleDeg,
-               "\"/>\n    <string name=\"fov_axis\" value=\"y\"/>\n",
-               "    <float name=\"near_clip\" value=\"", 0.01 * radius, "\"/>\n",
-               "    <float name=\"far_clip\" value=\"", 100.0 * radius, "\"/>\n",
-               "    <transform name=\"to_world\">\n      <lookat origin=\"", list(eye),
-               "\" target=\"", list(target), "\" up=\"0, 1, 0\"/>\n    </transform>\n",
-               "    <film type=\"hdrfilm\">\n",
-               "      <integer name=\"width\" value=\"$width\"/>\n",
-               "      <integer name=\"height\" value=\"$height\"/>\n",
-               "      <string name=\"pixel_format\" value=\"rgb\"/>\n",
-               "      <rfilter type=\"box\"/>\n    </film>\n",
-               "    <sampler type=\"independent\">\n",
-               "      <integer name=\"sample_count\" value=\"$spp\"/>\n    </sampler>\n",
-               "  </sensor>\n");
+    return str(
+        "  <sensor type=\"perspective\">\n", "    <float name=\"fov\" value=\"", kAngleDeg,
+        "\"/>\n    <string name=\"fov_axis\" value=\"y\"/>\n",
+        "    <float name=\"near_clip\" value=\"", 0.01 * radius, "\"/>\n",
+        "    <float name=\"far_clip\" value=\"", 100.0 * radius, "\"/>\n",
+        "    <transform name=\"to_world\">\n      <lookat origin=\"", list(eye), "\" target=\"",
+        list(target), "\" up=\"0, 1, 0\"/>\n    </transform>\n", "    <film type=\"hdrfilm\">\n",
+        "      <integer name=\"width\" value=\"$width\"/>\n",
+        "      <integer name=\"height\" value=\"$height\"/>\n",
+        "      <string name=\"pixel_format\" value=\"rgb\"/>\n",
+        "      <rfilter type=\"box\"/>\n    </film>\n", "    <sampler type=\"independent\">\n",
+        "      <integer name=\"sample_count\" value=\"$spp\"/>\n    </sampler>\n", "  </sensor>\n");
 }
 
 std::string scene_text(const FlakeField& field, const MitsubaBox& box) {
@@ -81,27 +78,25 @@ std::string scene_text(const FlakeField& field, const MitsubaBox& box) {
         field.albedo_varies()
             ? grid_element("albedo", "albedo.vol", box)
             : str("      <rgb name=\"albedo\" value=\"", list(to_double(field.albedo())), "\"/>\n");
-    return str("<!-- mitsuba scene.xml; -Dspp=64 -Dwidth=512 -Dheight=512 change the defaults -->\n",
-               "<scene version=\"3.0.0\">\n", "  <default name=\"spp\" value=\"64\"/>\n",
-               "  <default name=\"width\" value=\"512\"/>\n",
-               "  <default name=\"height\" value=\"512\"/>\n",
-               "  <integrator type=\"volpath\">\n",
-               "    <integer name=\"max_depth\" value=\"64\"/>\n",
-               "    <integer name=\"rr_depth\" value=\"5\"/>\n  </integrator>\n",
-               camera_element(box.content), //
-               "  <emitter type=\"constant\">\n",
-               "    <rgb name=\"radiance\" value=\"0.35, 0.4, 0.5\"/>\n  </emitter>\n",
-               "  <emitter type=\"directional\">\n",
-               "    <vector name=\"direction\" value=\"-0.7, -1, -0.25\"/>\n",
-               "    <rgb name=\"irradiance\" value=\"4, 3.8, 3.4\"/>\n  </emitter>\n",
-               "  <shape type=\"cube\">\n    <transform name=\"to_world\">\n",
-               "      <scale value=\"", list(box.bounds.size() * 0.5), "\"/>\n",
-               "      <translate value=\"", list(centre), "\"/>\n    </transform>\n",
-               "    <bsdf type=\"null\"/>\n",
-               "    <medium name=\"interior\" type=\"heterogeneous\">\n",
-               grid_element("sigma_t", "sigma_t.vol", box), albedo,
-               "      <phase type=\"sggx\">\n", grid_element("S", "S.vol", box),
-               "      </phase>\n    </medium>\n  </shape>\n</scene>\n");
+    return str(
+        "<!-- mitsuba scene.xml; -Dspp=64 -Dwidth=512 -Dheight=512 change the defaults -->\n",
+        "<scene version=\"3.0.0\">\n", "  <default name=\"spp\" value=\"64\"/>\n",
+        "  <default name=\"width\" value=\"512\"/>\n",
+        "  <default name=\"height\" value=\"512\"/>\n", "  <integrator type=\"volpath\">\n",
+        "    <integer name=\"max_depth\" value=\"64\"/>\n",
+        "    <integer name=\"rr_depth\" value=\"5\"/>\n  </integrator>\n",
+        camera_element(box.content), //
+        "  <emitter type=\"constant\">\n",
+        "    <rgb name=\"radiance\" value=\"0.35, 0.4, 0.5\"/>\n  </emitter>\n",
+        "  <emitter type=\"directional\">\n",
+        "    <vector name=\"direction\" value=\"-0.7, -1, -0.25\"/>\n",
+        "    <rgb name=\"irradiance\" value=\"4, 3.8, 3.4\"/>\n  </emitter>\n",
+        "  <shape type=\"cube\">\n    <transform name=\"to_world\">\n", "      <scale value=\"",
+        list(box.bounds.size() * 0.5), "\"/>\n", "      <translate value=\"", list(centre),
+        "\"/>\n    </transform>\n", "    <bsdf type=\"null\"/>\n",
+        "    <medium name=\"interior\" type=\"heterogeneous\">\n",
+        grid_element("sigma_t", "sigma_t.vol", box), albedo, "      <phase type=\"sggx\">\n",
+        grid_element("S", "S.vol", box), "      </phase>\n    </medium>\n  </shape>\n</scene>\n");
 }
 
 /// The .vol files while layers are appended.
