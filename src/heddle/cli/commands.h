@@ -14,12 +14,14 @@ namespace heddle::cli {
 [[nodiscard]] Command material_command();
 [[nodiscard]] Command preview_command();
 [[nodiscard]] Command render_command();
+[[nodiscard]] Command export_command();
 
 /// All subcommands, in the order of a first use.
 [[nodiscard]] inline const std::vector<Command>& commands() {
     static const std::vector<Command> all{
-        info_command(),       generate_command(), voxelize_command(), lod_command(),
-        lod_report_command(), material_command(), preview_command(),  render_command()};
+        info_command(),    generate_command(),   voxelize_command(),
+        lod_command(),     lod_report_command(), material_command(),
+        preview_command(), render_command(),     export_command()};
     return all;
 }
 

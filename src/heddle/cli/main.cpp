@@ -82,7 +82,7 @@ std::string overview() {
            "make:   generate (knit, weave, hair, grass, brushed plate), voxelize (a .vdb of them)\n"
            "look:   info (what a file holds), preview, render (pictures), lod-report (errors of "
            "levels)\n"
-           "change: lod (the levels of a .vdb), material (its materials)\n"
+           "change: lod (the levels of a .vdb), material (its materials), export (to Mitsuba 3)\n"
            "first:  heddle generate knit -o knit.bcc\n"
            "then:   heddle voxelize knit.bcc --yarn cotton -o knit.vdb\n"
            "and:    heddle preview knit.vdb -o knit.png\n";

@@ -80,7 +80,10 @@ void run_render(const Arguments& arguments, Report& report, ProgressBar& bar) {
     job.scene_hash = hash_of_scene(scene, options, arguments.given("geometry"));
 
     bar.begin("read", "files", 1);
-    Stage stage(scene, {arguments.given("geometry"), options.level_offset}, bar);
+    const StageOptions stage_options{.geometry = arguments.given("geometry"),
+                                     .flakes = options.transport == Transport::Flakes,
+                                     .level_offset = options.level_offset};
+    Stage stage(scene, stage_options, bar);
     const RenderOutcome outcome =
         render_to_file(stage, options, scene.integrator.seed, scene.width, scene.height, job, bar);
     bar.finish();

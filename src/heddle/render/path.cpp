@@ -95,6 +95,18 @@ private:
             nearest = hit;
             stopped_in = &volume;
         }
+        const FlakeMedium* stopped_by = nullptr;
+        FlakeHit flake;
+        for (const FlakeMedium& medium : scene_.flakes) {
+            if (!medium.sample_flight(open, sampler_.stream(), flake)) continue;
+            open.t_max = flake.t;
+            stopped_by = &medium;
+        }
+        if (stopped_by != nullptr) {
+            event = {flake.t, stopped_by->scatterer(flake, ray.direction * -1.0f),
+                     stopped_by->material()};
+            return true;
+        }
         if (stopped_in == nullptr) return found;
         event.t = nearest.t;
         const VolumeScatter drawn = stopped_in->scatter(nearest, ray.direction * -1.0f,
@@ -141,11 +153,10 @@ private:
     [[nodiscard]] Vec3f direct_light(const Event& event, Vec3d at, Vec3f wi, float width) {
         const LightSample light = scene_.lights.sample(at, sampler_.three());
         if (!(largest(light.radiance) > 0.0f)) return {};
-        const Vec3f scattered = evaluate(event.scatterer, wi, light.direction) * light.radiance;
+        const ScatterValue phase = evaluate_with_pdf(event.scatterer, wi, light.direction);
+        const Vec3f scattered = phase.value * light.radiance;
         if (!(largest(scattered) > 0.0f)) return {};
-        const float share = light.pdf > 0.0f
-                                ? power_share(light.pdf, pdf(event.scatterer, wi, light.direction))
-                                : 1.0f;
+        const float share = light.pdf > 0.0f ? power_share(light.pdf, phase.pdf) : 1.0f;
         Ray shadow = leave(event, at, light.direction, width, spread_of(1.0f, 0.0f));
         shadow.t_max = light.distance < kInfinity ? light.distance * 0.9999f : kInfinity;
         LightHit nearer; // a lamp ends the paths that meet it by chance, so it hides what is behind
@@ -159,6 +170,10 @@ private:
         for (const Volume& volume : scene_.volumes) {
             passes *= volume.transmittance(ray, options_.transport, choice_, sampler_.stream());
             if (passes == 0.0f) break;
+        }
+        for (const FlakeMedium& medium : scene_.flakes) {
+            if (passes == 0.0f) break;
+            passes *= medium.transmittance(ray, sampler_.stream());
         }
         return passes;
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <heddle/render/camera.h>
+#include <heddle/render/flake_grid.h>
 #include <heddle/render/light.h>
 #include <heddle/render/path_sampler.h>
 #include <heddle/render/surface_scene.h>
@@ -17,6 +18,7 @@ namespace heddle {
 /// All that paths run through, in the world. Never changes while a picture is made.
 struct PathScene {
     std::vector<Volume> volumes;
+    std::vector<FlakeMedium> flakes;              ///< beside the volumes
     std::shared_ptr<const SurfaceScene> surfaces; ///< may be null
     std::vector<ScatterMaterial> materials;
     LightSet lights{{}, 1.0};

@@ -20,7 +20,8 @@ enum class Transport : std::uint8_t {
     Product,   ///< each voxel on its own: extinctions add up          [Fabre26, LopezMoreno17]
     Threshold, ///< a ray keeps what it drew from voxel to voxel as their faces correlate; Product
                ///< where the file has no correlation
-    Footprint  ///< where a ray crosses the voxels' faces decides; Product without footprints
+    Footprint, ///< where a ray crosses the voxels' faces decides; Product without footprints
+    Flakes     ///< a FlakeMedium in place of the Volume: one SGGX a voxel, interpolated [Heitz15]
 };
 
 /// Names on the command line, in the order of Transport.

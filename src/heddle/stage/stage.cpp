@@ -32,6 +32,22 @@ double distance_to(const Bounds& box, Vec3d p) {
     return length(away);
 }
 
+/// @throws Error  BadFile: no voxels, or the level that the scene forces does not exist
+std::vector<VoxelGridInfo> read_levels_of(const SceneObject& object, const Scene& scene) {
+    std::vector<VoxelGridInfo> infos = read_infos(object.volume);
+    const int count = static_cast<int>(infos.size());
+    if (scene.integrator.level >= count) {
+        throw Error(ErrorCode::BadFile,
+                    str("has no level ", scene.integrator.level, " (levels 0 to ", count - 1, ")"),
+                    "give a level that it has", {.path = object.volume});
+    }
+    if (infos.front().voxel_count == 0) {
+        throw Error(ErrorCode::BadFile, "has no voxels", "take the object out of the scene",
+                    {.path = object.volume});
+    }
+    return infos;
+}
+
 } // namespace
 
 Stage::Stage(const Scene& scene, const StageOptions& options, Progress& progress)
@@ -40,7 +56,8 @@ Stage::Stage(const Scene& scene, const StageOptions& options, Progress& progress
       level_(scene.integrator.level),
       level_offset_(options.level_offset) {
     for (const SceneObject& object : scene.objects) {
-        if (!is_traced(object, options)) open_volume(object, scene);
+        if (is_traced(object, options)) continue;
+        options.flakes ? add_flakes(object, scene) : open_volume(object, scene);
     }
     trace_geometry(scene, options, progress);
     for (OpenVolume& volume : open_) read_level(volume);
@@ -65,17 +82,7 @@ void Stage::read_level(OpenVolume& volume) {
 }
 
 void Stage::open_volume(const SceneObject& object, const Scene& scene) {
-    const std::vector<VoxelGridInfo> infos = read_infos(object.volume);
-    const int count = static_cast<int>(infos.size());
-    if (scene.integrator.level >= count) {
-        throw Error(ErrorCode::BadFile,
-                    str("has no level ", scene.integrator.level, " (levels 0 to ", count - 1, ")"),
-                    "give a level that it has", {.path = object.volume});
-    }
-    if (infos.front().voxel_count == 0) {
-        throw Error(ErrorCode::BadFile, "has no voxels", "take the object out of the scene",
-                    {.path = object.volume});
-    }
+    const std::vector<VoxelGridInfo> infos = read_levels_of(object, scene);
     OpenVolume volume;
     volume.path = object.volume;
     volume.pyramid.resize(infos.size());
@@ -86,8 +93,28 @@ void Stage::open_volume(const SceneObject& object, const Scene& scene) {
     for (const Material& material : infos.front().materials) {
         volume.materials.push_back(material_of(scene, object, material));
     }
-    volume.next = count - 1;
+    volume.next = static_cast<int>(infos.size()) - 1;
     open_.push_back(std::move(volume));
+}
+
+void Stage::add_flakes(const SceneObject& object, const Scene& scene) {
+    const std::vector<VoxelGridInfo> infos = read_levels_of(object, scene);
+    if (infos.front().voxel_count == 0) return;
+    std::vector<std::uint32_t> materials;
+    std::vector<Vec3f> albedo;
+    for (const Material& material : infos.front().materials) {
+        materials.push_back(material_of(scene, object, material));
+        albedo.push_back(scene_.materials[materials.back()].albedo);
+    }
+    std::unique_ptr<VoxelGrid> level = read_vdb(object.volume, std::max(scene.integrator.level, 0));
+    auto field = std::make_unique<FlakeField>(*level, albedo);
+    level.reset();
+    const auto grid = std::make_shared<const FlakeGrid>(*field);
+    field.reset();
+    flake_bytes_ += grid->byte_count();
+    for (const Affine& instance : object.instances) {
+        scene_.flakes.emplace_back(grid, instance, materials.front());
+    }
 }
 
 std::uint32_t
@@ -143,6 +170,7 @@ Bounds Stage::bounds() const {
     for (const Volume& volume : scene_.volumes) {
         if (!volume.bounds().empty()) box.grow(volume.bounds());
     }
+    for (const FlakeMedium& medium : scene_.flakes) box.grow(medium.bounds());
     return box;
 }
 
@@ -204,7 +232,7 @@ bool Stage::read_next(std::int64_t most_voxels) {
 }
 
 std::int64_t Stage::byte_count() const {
-    std::int64_t sum = scene_.surfaces ? scene_.surfaces->byte_count() : 0;
+    std::int64_t sum = flake_bytes_ + (scene_.surfaces ? scene_.surfaces->byte_count() : 0);
     for (const OpenVolume& volume : open_) {
         for (const auto& level : volume.pyramid) sum += level ? level->byte_count() : 0;
     }

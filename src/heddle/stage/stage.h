@@ -17,6 +17,7 @@ namespace heddle {
 
 struct StageOptions {
     bool geometry = false; ///< objects that have explicit geometry are traced, not their volumes
+    bool flakes = false;   ///< volumes are FlakeMedia of the forced level, or of the finest
     float level_offset = 0.0f; ///< PathOptions::level_offset: below 0, finer levels are needed
     /// Levels of up to so many voxels are read at once: before a picture could be missed.
     std::int64_t coarse_voxels = 400'000;
@@ -53,6 +54,7 @@ private:
         int next = 0; ///< level to be read next
     };
     void open_volume(const SceneObject& object, const Scene& scene);
+    void add_flakes(const SceneObject& object, const Scene& scene);
     void trace_geometry(const Scene& scene, const StageOptions& options, Progress& progress);
     void place_camera(const Scene& scene);
     void choose_levels();
@@ -69,6 +71,7 @@ private:
     Bounds surface_bounds_;
     CameraView view_;
     std::unique_ptr<Camera> camera_;
+    std::int64_t flake_bytes_ = 0; ///< of all grids; instances share theirs
     std::int32_t width_ = 0, height_ = 0;
     int level_ = -1; ///< forced
     float level_offset_ = 0.0f;
