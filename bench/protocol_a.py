@@ -4,7 +4,7 @@
 usage: bench/protocol_a.py [-o FOLDER] [--scene helmet lamp scarf] [--method naive single moments] [--samples 64] [--lamp-voxels 2048]
 Volumes are kept in FOLDER (default build/protocol_a; the lamp takes 8 GB there) and pictures rendered anew. Prints the form of table 2 with the
 paper's figures beside; FOLDER/result.md, sheet.png, gains.png and errors.csv say more. The row `floor` is the finest level with another seed: what
-noise costs. Lights: a sun and three area lights, black behind. Needs what tools/compare needs; HEDDLE and HEDDLE_TEST_DATA as in the other scripts.
+noise costs. Lights: sky, sun and three panels. Needs what tools/compare needs; HEDDLE and HEDDLE_TEST_DATA as in the other scripts.
 """
 import argparse
 import os
@@ -41,7 +41,8 @@ def area_text(corner, edge_u, edge_v, color):
 
 
 def scene_text(volume, bounds, back, up):
-    """Framed with a margin of 5 %; lights stand about the camera's axes, none of them in its view."""
+    """Framed with a margin of 5 %; the sky and sun that `heddle render X.vdb` takes, the sun from the camera's upper left, and three panels for
+    metal to mirror, out of view."""
     right, top, back = basis(back, up)
     c = middle(bounds)
     inside = [plus((1, p), (-1, c)) for p in protocol.corners(bounds)]
@@ -50,11 +51,12 @@ def scene_text(volume, bounds, back, up):
     r = max(dot(p, p) for p in inside) ** 0.5
     panel = 4 * r
     text = protocol.camera_text(plus((1, c), (away, back)), c, up, 30.0)
-    text += protocol.sun_text(unit(plus((0.6, right), (-0.8, top), (-0.9, back))), 2.5)
+    text += "[[light]]\nkind = \"constant\"\ncolor = [0.35, 0.4, 0.5]\n"
+    text += protocol.sun_text(unit(plus((0.6, right), (-0.8, top), (-0.9, back))), [4.0, 3.8, 3.4])
     above = plus((1, c), (3 * r, top), (-2 * r, right), (-1.5 * r, back))
-    text += area_text(above, plus((panel, right)), plus((panel, back)), 1.5)
-    text += area_text(plus((1, c), (3 * r, right), (-2 * r, top)), plus((panel, back)), plus((panel, top)), 1.0)
-    text += area_text(plus((1, c), (-3 * r, right), (-2 * r, top)), plus((panel, top)), plus((panel, back)), [0.4, 0.5, 0.7])
+    text += area_text(above, plus((panel, right)), plus((panel, back)), 3.0)
+    text += area_text(plus((1, c), (3 * r, right), (-2 * r, top)), plus((panel, back)), plus((panel, top)), 2.0)
+    text += area_text(plus((1, c), (-3 * r, right), (-2 * r, top)), plus((panel, top)), plus((panel, back)), 1.0)
     return text + f"[object.it]\nvolume = \"{os.path.abspath(volume)}\"\n"
 
 
