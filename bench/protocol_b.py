@@ -6,7 +6,8 @@ usage: bench/protocol_b.py [-o FOLDER] [--scene knit satin hair pine lamp] [--vi
 Scenes: generated stockinette and satin of yarn `cotton`, straight hair, smallpine, the barn lamp; `sweater` (280 s to build, 8 GiB) only when named.
 Materials: cloth and hair a Lambertian round fiber of albedo .9 .5 .2, the others their own. Lights: five directional ones, black behind, so that colour
 ratios are of the object alone. Views: facing, 45 and 80 degrees off. Level by the rays' footprint, or --force-level. Samples are of level 1; each
-level above takes 4 times as many, up to 1024. --keep-traced takes traced pictures that are there already (of the same options!).
+level above takes 4 times as many, up to 1024. --keep takes pictures that
+are there already, of the same options: the traced ones, or all, which goes on with a run that was stopped.
 Volumes are kept in FOLDER (default build/protocol_b); result.md, errors.csv, sheet.png, errors.png there. Needs what tools/compare needs.
 """
 import argparse
@@ -111,10 +112,10 @@ def run_scene(folder, name, a):
                 file.write(scene_text(name, path, volume, bounds, back, up, distance, size))
             samples = min(1024, a.samples * 4 ** max(level - 1, 0))
             common = ["--size", f"{size[0]}x{size[1]}", "--samples", samples]
-            reference, traced = render(folder, f"{label}_traced", scene, [*common, "--geometry", "--seed", 1], a.keep_traced)
+            reference, traced = render(folder, f"{label}_traced", scene, [*common, "--geometry", "--seed", 1], a.keep != "none")
             for transport in a.transport:
                 more = [*common, "--transport", transport, *(["--level", level] if a.force_level else [])]
-                test, walked = render(folder, f"{label}_{transport}", scene, more, False)
+                test, walked = render(folder, f"{label}_{transport}", scene, more, a.keep == "all")
                 out.append((Job(reference, test, name, str(level), transport, view), walked, traced))
     return out
 
@@ -150,7 +151,7 @@ def main():
     arguments.add_argument("--force-level", action="store_true")
     arguments.add_argument("--footprints", type=int, choices=(4, 8))
     arguments.add_argument("--correlation", action="store_true")
-    arguments.add_argument("--keep-traced", action="store_true", help="takes traced pictures that are there already")
+    arguments.add_argument("--keep", choices=("none", "traced", "all"), default="none", help="takes pictures that are there already")
     a = arguments.parse_args()
     protocol.need_packages()
     from heddle_compare import run, table
