@@ -81,8 +81,8 @@ void run_render(const Arguments& arguments, Report& report, ProgressBar& bar) {
 
     bar.begin("read", "files", 1);
     const StageOptions stage_options{.geometry = arguments.given("geometry"),
-                                     .flakes = options.transport == Transport::Flakes,
-                                     .level_offset = options.level_offset};
+                                     .level_offset = options.level_offset,
+                                     .flakes = options.transport == Transport::Flakes};
     Stage stage(scene, stage_options, bar);
     const RenderOutcome outcome =
         render_to_file(stage, options, scene.integrator.seed, scene.width, scene.height, job, bar);
