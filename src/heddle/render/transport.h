@@ -82,18 +82,21 @@ depths_on_way(const VolumeVoxel& voxel, std::uint64_t footprints, Vec3f in, Vec3
         hits[1] += static_cast<int>(footprints >> (16 + 4 * x + z) & 1);
         hits[2] += static_cast<int>(footprints >> (32 + 4 * y + x) & 1);
     }
-    const Vec3f even = depths_of(voxel);
     Vec3f depth{};
     for (int a = 0; a < 3; ++a) {
         const auto bits = static_cast<std::uint16_t>(footprints >> (16 * a));
-        const float covered = 1.0f - std::exp(-even[a]);
+        const int hit = hits[static_cast<std::size_t>(a)];
+        const float part = std::fabs(way[a]);
+        if ((bits != 0 && hit == 0) || part == 0.0f) continue; // most of the time
+        const float covered =
+            1.0f -
+            std::exp(-kDepthUnit * static_cast<float>(voxel.depth[static_cast<std::size_t>(a)]));
         float swept = covered;
         if (bits != 0) {
             const float share = static_cast<float>(std::popcount(bits)) * (1.0f / 16.0f);
-            swept = static_cast<float>(hits[static_cast<std::size_t>(a)]) * (1.0f / kPoints) *
-                    std::min(1.0f, covered / share);
+            swept = static_cast<float>(hit) * (1.0f / kPoints) * std::min(1.0f, covered / share);
         }
-        depth[a] = -std::log(1.0f - std::min(swept * std::fabs(way[a]), kFull));
+        depth[a] = -std::log(1.0f - std::min(swept * part, kFull));
     }
     return depth;
 }

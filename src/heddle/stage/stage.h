@@ -20,7 +20,7 @@ struct StageOptions {
     float level_offset = 0.0f; ///< PathOptions::level_offset: below 0, finer levels are needed
     /// Levels of up to so many voxels are read at once: before a picture could be missed.
     std::int64_t coarse_voxels = 400'000;
-    bool flakes = false;   ///< volumes are FlakeMedia of the forced level, or of the finest
+    bool flakes = false; ///< volumes are FlakeMedia of the forced level, or of the finest
 };
 
 /// A scene made ready: geometry loaded, lights and camera placed, volumes open with their coarse
