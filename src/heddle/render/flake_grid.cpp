@@ -2,6 +2,7 @@
 
 #include <heddle/base/error.h>
 #include <heddle/base/parallel.h>
+#include <heddle/render/clip.h>
 
 #include <algorithm>
 #include <cmath>
@@ -230,23 +231,14 @@ FlakeMedium::GridRay FlakeMedium::enter(const Ray& ray) const {
     out.cells.direction = direction * per_voxel_;
     out.w = to_float(direction);
     out.length = moved_ ? length(out.w) : 1.0f;
-    double t0 = 0.0;
-    double t1 = static_cast<double>(ray.t_max);
-    for (int a = 0; a < 3; ++a) {
-        const double o = out.cells.origin[a];
-        const double d = out.cells.direction[a];
-        if (d == 0.0) {
-            if (!(o >= grid_->lo()[a] && o <= grid_->hi()[a])) t1 = -1.0;
-            continue;
-        }
-        const double inverse = 1.0 / d;
-        const double p = (grid_->lo()[a] - o) * inverse;
-        const double q = (grid_->hi()[a] - o) * inverse;
-        t0 = std::max(t0, std::min(p, q));
-        t1 = std::min(t1, std::max(p, q));
-    }
-    out.t0 = static_cast<float>(t0);
-    out.t1 = static_cast<float>(t1);
+    const Vec3i lo = grid_->lo();
+    const Vec3i hi = grid_->hi();
+    const Bounds box{
+        {static_cast<double>(lo.x), static_cast<double>(lo.y), static_cast<double>(lo.z)},
+        {static_cast<double>(hi.x), static_cast<double>(hi.y), static_cast<double>(hi.z)}};
+    const RayRange range = clip(out.cells.origin, out.cells.direction, 0.0f, ray.t_max, box);
+    out.t0 = range.t0;
+    out.t1 = range.t1;
     return out;
 }
 

@@ -1,5 +1,6 @@
 #include <heddle/render/volume.h>
 
+#include <heddle/render/clip.h>
 #include <heddle/sggx/moments.h>
 #include <heddle/sggx/pack.h>
 #include <heddle/sggx/sample.h>
@@ -10,29 +11,6 @@
 
 namespace heddle {
 namespace {
-
-/// A part of a ray; empty where t0 >= t1.
-struct Range {
-    float t0, t1;
-};
-
-/// The part of [t_min, t_max] inside a box.
-Range clip(Vec3d origin, Vec3d direction, float t_min, float t_max, const Bounds& box) {
-    double t0 = static_cast<double>(t_min);
-    double t1 = static_cast<double>(t_max);
-    for (int a = 0; a < 3; ++a) {
-        if (direction[a] == 0.0) {
-            if (!(origin[a] >= box.lo[a] && origin[a] <= box.hi[a])) return {0.0f, 0.0f};
-            continue;
-        }
-        const double inverse = 1.0 / direction[a];
-        const double p = (box.lo[a] - origin[a]) * inverse;
-        const double q = (box.hi[a] - origin[a]) * inverse;
-        t0 = std::max(t0, std::min(p, q));
-        t1 = std::min(t1, std::max(p, q));
-    }
-    return {static_cast<float>(t0), static_cast<float>(t1)};
-}
 
 Vec3d scale(Vec3i index, Vec3d h) {
     return Vec3d{static_cast<double>(index.x), static_cast<double>(index.y),
@@ -109,7 +87,7 @@ void Volume::walk(const Ray& ray,
     if (object_bounds_.empty()) return; // no ray would ever leave it
     const Vec3d origin = to_object_.point(ray.origin);
     const Vec3d direction = to_object_.direction(to_double(ray.direction));
-    const Range range = clip(origin, direction, ray.clear, ray.t_max, object_bounds_);
+    const RayRange range = clip(origin, direction, ray.clear, ray.t_max, object_bounds_);
     for (float t = range.t0; t < range.t1 && !walker.stopped();) {
         // the level holds until the footprint asks for the next
         float end = range.t1;
@@ -135,7 +113,7 @@ void Volume::walk(const Ray& ray,
         const Vec3d per{1.0 / h.x, 1.0 / h.y, 1.0 / h.z};
         const VoxelRay voxel_ray{origin * per, direction * per};
         walker.enter(level, voxel_ray);
-        const Range inside =
+        const RayRange inside =
             clip(origin, direction, t, end, level_bounds_[static_cast<std::size_t>(number)]);
         walk_voxels(level, voxel_ray, inside.t0, inside.t1, [&](const VoxelStep& step) {
             if (walker.pass(level, step)) return true;
