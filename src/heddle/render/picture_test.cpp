@@ -179,7 +179,7 @@ TEST_F(RenderPass, PassesAddUpToOneInOneGo) {
 }
 
 TEST_F(RenderPass, ACancelledPassLeavesThePictureAsItWas) {
-    Picture picture(33, 18);
+    Picture picture(1025, 18); // more tiles than threads
     pass(picture, 2);
     const std::vector<float> before = all_of(picture);
     struct Stop final : Progress {
