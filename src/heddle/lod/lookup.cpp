@@ -49,13 +49,9 @@ void LevelLookup::append(const VoxelBlock& block, Level& level) {
         leaf.first_lobe = first_lobe + from.first_lobe;
         leaf.active = from.active;
         leaf.origin = from.origin;
-        std::uint16_t voxels = 0;
-        for (std::size_t x = 0; x < 8; ++x) {
-            leaf.before[x] = voxels;
-            voxels = static_cast<std::uint16_t>(voxels + std::popcount(from.active[x]));
-        }
+        const std::size_t voxels = count_before(leaf.active, leaf.before);
         std::uint32_t lobe = 0;
-        for (std::size_t v = from.first_voxel; v < from.first_voxel + std::size_t{voxels}; ++v) {
+        for (std::size_t v = from.first_voxel; v < from.first_voxel + voxels; ++v) {
             const std::uint32_t count = block.lobe_count[v];
             level.lobe_place.push_back(static_cast<std::uint16_t>(lobe | (count - 1) << 12));
             lobe += count;

@@ -26,13 +26,6 @@ SggxMatrix rotate(const SggxMatrix& S, const Affine& turn) {
     return compose(out);
 }
 
-/// SGGX of the normals of thin cylinders whose tangents have distribution S.
-SggxMatrix normals_of_tangents(const SggxMatrix& S) {
-    const SymmetricMatrix M = second_moment_of(S);
-    return fit_sggx({0.5f * (1.0f - M.xx), 0.5f * (1.0f - M.yy), 0.5f * (1.0f - M.zz), -0.5f * M.xy,
-                     -0.5f * M.xz, -0.5f * M.yz});
-}
-
 bool is_identity(const Affine& a) {
     return a.x == Affine{}.x && a.y == Affine{}.y && a.z == Affine{}.z;
 }
@@ -207,7 +200,7 @@ VolumeScatter Volume::scatter(const VolumeHit& hit,
     const bool flakes = out.material.model == ScatterModel::MicroflakeSpecular ||
                         out.material.model == ScatterModel::MicroflakeDiffuse;
     if (flakes && fiber) { // flakes lie around the fiber
-        S = normals_of_tangents(S);
+        S = fit_sggx(moment_of_normals(second_moment_of(S)));
         axis = sample_vndf(factor(S), from, random);
         tangent = any_perpendicular(axis);
     }

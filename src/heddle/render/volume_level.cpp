@@ -87,13 +87,9 @@ void VolumeLevel::append(const VoxelBlock& block,
         leaf.first_voxel = first_voxel + from.first_voxel;
         leaf.first_lobe = first_lobe + from.first_lobe;
         leaf.active = from.active;
-        std::uint16_t count = 0;
-        for (std::size_t x = 0; x < 8; ++x) {
-            leaf.before[x] = count;
-            count = static_cast<std::uint16_t>(count + std::popcount(from.active[x]));
-        }
+        const std::size_t count = count_before(leaf.active, leaf.before);
         std::uint32_t lobe = 0;
-        for (std::size_t v = from.first_voxel; v < from.first_voxel + std::size_t{count}; ++v) {
+        for (std::size_t v = from.first_voxel; v < from.first_voxel + count; ++v) {
             const Coverage& c = block.coverage[v];
             const std::uint32_t lobes = block.lobe_count[v];
             voxels_.push_back(
@@ -168,11 +164,7 @@ void VolumeLevel::build_tiles(const std::vector<Vec3i>& origins) {
     slots_.assign(std::bit_ceil(2 * tiles_.size() + 1), kNone);
     const std::size_t mask = slots_.size() - 1;
     for (std::size_t n = 0; n < tiles_.size(); ++n) {
-        std::uint16_t count = 0;
-        for (std::size_t x = 0; x < 8; ++x) {
-            tiles_[n].before[x] = count;
-            count = static_cast<std::uint16_t>(count + std::popcount(tiles_[n].active[x]));
-        }
+        count_before(tiles_[n].active, tiles_[n].before);
         std::size_t i = hash(tiles_[n].origin) & mask;
         while (slots_[i] != kNone) i = (i + 1) & mask;
         slots_[i] = static_cast<std::uint32_t>(n);

@@ -128,6 +128,14 @@ template <int kSteps = 5>
     return compose({{m.x, m.y, m.z}, {e.axis[0], e.axis[1], e.axis[2]}});
 }
 
+/// Second moment of the normals of thin cylinders whose tangents' is `M`: they lie evenly across.
+/// @param M  trace 1
+/// @return   trace 1
+[[nodiscard]] HEDDLE_HD inline SymmetricMatrix moment_of_normals(const SymmetricMatrix& M) {
+    return {0.5f * (1.0f - M.xx), 0.5f * (1.0f - M.yy), 0.5f * (1.0f - M.zz),
+            -0.5f * M.xy,         -0.5f * M.xz,         -0.5f * M.yz};
+}
+
 /// The SGGX whose own second moment is `M`: the inverse of second_moment_of, to 1e-5 in M.
 ///
 /// It is unique: M is the gradient of a convex function of log sigma (docs/sggx.md). No sigma falls

@@ -16,9 +16,7 @@ constexpr std::int32_t kHalo = 2; ///< voxels by which S grows into emptiness
 /// Second moment of the normals of a lobe.
 SymmetricMatrix normal_moment(const SggxMatrix& S, MaterialKind kind) {
     const SymmetricMatrix M = second_moment_of(S);
-    if (kind == MaterialKind::Surface) return M;
-    return {0.5f * (1.0f - M.xx), 0.5f * (1.0f - M.yy), 0.5f * (1.0f - M.zz),
-            -0.5f * M.xy,         -0.5f * M.xz,         -0.5f * M.yz};
+    return kind == MaterialKind::Surface ? M : moment_of_normals(M);
 }
 
 void add(SymmetricMatrix& sum, const SymmetricMatrix& M, float weight) {
