@@ -48,7 +48,7 @@ def levels_part(folder, a):
     bounds, voxel = heddle("info", cloth)["bounds"], info["voxel_size"][0]
     wide = 1024 * voxel
     print(f"Knit, {info['voxels'] / 1e6:.0f} M voxels of level 0; the view is {1024} of them wide and high.\n")
-    print("| level | pixels | paths | meet | us a path that meets | of level 0 |\n" + "|---|" * 6)
+    print("| level | pixels | paths | meet | us a path that meets | of level 0 |\n" + "|---" * 6 + "|")
     first = None
     for level in range(7):
         size = 1024 >> level
@@ -73,7 +73,7 @@ def traced_part(folder, a):
     text = FIBER + SUN + SKY
     body = (f"[object.it]\nvolume = \"{volume}\"\ngeometry = \"{path}\"\nyarn = \"{fit}\"\nfibers = 150\nmaterials = {{ \"*\" = \"matte\" }}\n")
     print("\n| level | pixels | of | load s | us a path | noise % | variance x time | against traced | seconds to "
-          f"{a.noise} % | against | scene MiB | against |\n" + "|---|" * 12)
+          f"{a.noise} % | against | scene MiB | against |\n" + "|---" * 12 + "|")
     for level in (3, 4):
         size = 2 * math.ceil(max(bounds[1][i] - bounds[0][i] for i in (0, 1)) / info["voxel_size"][0] / 2 ** level / 2)
         scene = write_scene(folder, f"traced_{level}", text + facing(bounds, size * info["voxel_size"][0] * 2 ** level) + body)

@@ -7,7 +7,7 @@
 namespace heddle {
 namespace {
 
-constexpr std::int32_t kTile = 16; // px
+constexpr std::int32_t kTile = 4; // px: small pictures keep all threads busy too
 
 } // namespace
 
