@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Brightness of voxels against the same geometry traced, by level, order of scattering and angle between light and camera.
 
-usage: bench/brightness.py [-o FOLDER] [--scene knit strands spot] [--level 0 2 4] [--angle 0 35 80 130] [--depth 1 64] [--samples 32]
+usage: bench/brightness.py [-o FOLDER] [--scene knit lobes strands spot] [--level 0 2 4] [--angle 0 35 80 130] [--depth 1 64] [--samples 32]
                            [--transport product...]
 knit: 4 x 5 stockinette loops of yarn `cotton` at 1024 voxels; strands: 40 hairs far apart; spot: a cow of Lambertian surface at 256 voxels. A fixed camera, one
-directional light, albedo .9 .5 .2, 64 x 64 pixels. Depth 1 is single scattering: it shows what the phase function and the correlation of view and light
+directional light, albedo .9 .5 .2 (lobes: the knit of R and TT lobes), 64 x 64 pixels. Depth 1 is single scattering: it shows what the phase function and the correlation of view and light
 cost, without the rest. At angle 0 a medium of independent points returns half of what opaque things do, which are lit wherever they are seen.
 Needs what tools/compare needs.
 """
@@ -15,12 +15,15 @@ import os
 import protocol
 from protocol import DATA, basis, corners, dot, heddle, made, middle, plus, unit
 
-FIBER = "model = \"fiber\"\n"
-SURFACE = "model = \"surface\"\nroughness = 1\nmetalness = 0\nspecular = 0\n"
+FIBER = "model = \"fiber\"\nalbedo = [0.9, 0.5, 0.2]\n"
+LOBES = "model = \"lobe_fiber\"\ncolor_r = 0.04\ncolor_tt = [0.9, 0.6, 0.3]\nwidth_r = 8\nwidth_tt = 27\nazimuth_tt = 38\n"
+SURFACE = "model = \"surface\"\nalbedo = [0.9, 0.5, 0.2]\nroughness = 1\nmetalness = 0\nspecular = 0\n"
 # what is generated or read, how it is voxelized, the yarn of the scene, the material, where the camera stands
 SCENES = {
     "knit": (["knit", "--counts", "4,5"], ["--voxels", 1024, "--yarn", "cotton", "--yarn-radius", 0.1],
              "yarn = \"cotton\"\nyarn_radius = 0.1\n", FIBER, (0, 0, 1)),
+    "lobes": (["knit", "--counts", "4,5"], ["--voxels", 1024, "--yarn", "cotton", "--yarn-radius", 0.1],
+              "yarn = \"cotton\"\nyarn_radius = 0.1\n", LOBES, (0, 0, 1)),
     "strands": (["hair", "--counts", "40,4"], ["--voxels", 1024], "", FIBER, (0, 0, 1)),
     "spot": ("mesh/spot.obj", ["--voxels", 256], "", SURFACE, (0.3, 0.2, -1)),
 }
@@ -49,7 +52,7 @@ def scene_text(name, path, volume, angle, depth):
     text = protocol.camera_text(plus((1, c), (1.1 * reach / math.tan(math.radians(7.5)), back)), c, top, 15.0)
     turn = math.radians(angle)
     text += protocol.sun_text(unit(plus((-math.cos(turn), back), (-math.sin(turn), right))), 3.0)
-    text += f"[integrator]\nmax_depth = {depth}\n[material.matte]\n{material}albedo = [0.9, 0.5, 0.2]\n"
+    text += f"[integrator]\nmax_depth = {depth}\n[material.matte]\n{material}"
     return text + (f"[object.it]\nvolume = \"{os.path.abspath(volume)}\"\ngeometry = \"{os.path.abspath(path)}\"\n{yarn}"
                    "materials = { \"*\" = \"matte\" }\n")
 

@@ -64,7 +64,8 @@ public:
             throughput = throughput * next.weight;
             if (!survives(throughput, depth)) break;
             scatter_pdf = next.pdf;
-            ray = leave(event, at, next.direction, width, spread_of(next.roughness, ray.spread));
+            ray =
+                leave(event, at, wi, next.direction, width, spread_of(next.roughness, ray.spread));
         }
         return out;
     }
@@ -134,20 +135,24 @@ private:
     /// How far from an event in a volume nothing stops a ray: the way there was free, and what the ray
     /// starts on does not shade itself. Voxels that know no places would stop it at once. Chosen by
     /// brightness against traced geometry (docs/transport.md).
-    [[nodiscard]] static float clear_of(const Event& event, Vec3f direction) {
-        constexpr float kRadii = 5.0f;
+    [[nodiscard]] static float clear_of(const Event& event, Vec3f wi, Vec3f direction) {
+        constexpr float kRadii = 2.0f;     // of what a fiber shades of itself
+        constexpr float kBackRadii = 5.0f; // the way the ray came
         constexpr float kLeastCosine = 0.25f;
-        if (event.fiber) return kRadii * event.size;
+        if (event.fiber) {
+            const float back = std::max(0.0f, dot(wi, direction));
+            return (kRadii + (kBackRadii - kRadii) * back * back) * event.size;
+        }
         const float cosine = std::fabs(dot(direction, event.scatterer.axis));
         return event.size / std::max(cosine, kLeastCosine);
     }
 
     /// A ray that starts at an event, clear of the surface it stands on.
     [[nodiscard]] static Ray
-    leave(const Event& event, Vec3d at, Vec3f direction, float width, float spread) {
+    leave(const Event& event, Vec3d at, Vec3f wi, Vec3f direction, float width, float spread) {
         const float side = dot(direction, event.normal) < 0.0f ? -event.offset : event.offset;
         return {at + to_double(event.normal * side), direction, kInfinity, width, spread,
-                clear_of(event, direction)};
+                clear_of(event, wi, direction)};
     }
 
     [[nodiscard]] Vec3f direct_light(const Event& event, Vec3d at, Vec3f wi, float width) {
@@ -157,7 +162,7 @@ private:
         const Vec3f scattered = phase.value * light.radiance;
         if (!(largest(scattered) > 0.0f)) return {};
         const float share = light.pdf > 0.0f ? power_share(light.pdf, phase.pdf) : 1.0f;
-        Ray shadow = leave(event, at, light.direction, width, spread_of(1.0f, 0.0f));
+        Ray shadow = leave(event, at, wi, light.direction, width, spread_of(1.0f, 0.0f));
         shadow.t_max = light.distance < kInfinity ? light.distance * 0.9999f : kInfinity;
         LightHit nearer; // a lamp ends the paths that meet it by chance, so it hides what is behind
         if (scene_.lights.intersect(shadow, nearer)) return {};
