@@ -127,7 +127,7 @@ TEST(DepthsOnWay, ARayAlongAnAxisIsStoppedInSetCellsAlone) {
                 const bool set = a == 0   ? u == 1 && v == 2
                                  : a == 1 ? u == 0 && v == 3
                                           : u == 2 && v == 1;
-                const Vec3f depth = depths_on_way(voxel, bits, 0.0f, in, out);
+                const Vec3f depth = depths_on_way(voxel, bits, in, out);
                 EXPECT_NEAR(blocked(depth[a]), set ? 0.99 : 0.0, 0.005);
                 EXPECT_EQ(depth[(a + 1) % 3], 0.0f);
             }
@@ -138,25 +138,14 @@ TEST(DepthsOnWay, ARayAlongAnAxisIsStoppedInSetCellsAlone) {
 TEST(DepthsOnWay, AColumnIsBlockedAtOnePlaceInIt) {
     const VolumeVoxel voxel = voxel_of(0.8); // no bits: even
     for (const float part : {0.1f, 0.5f, 1.0f}) {
-        const Vec3f depth = depths_on_way(voxel, 0, 0.0f, {0.3f, 0.3f, 0.0f}, {0.3f, 0.3f, part});
+        const Vec3f depth = depths_on_way(voxel, 0, {0.3f, 0.3f, 0.0f}, {0.3f, 0.3f, part});
         EXPECT_NEAR(blocked(depth.z), 0.8 * static_cast<double>(part), 1e-3);
     }
 }
 
-TEST(DepthsOnWay, OfManyFibersBehindEachOtherDepthsAddUp) {
-    const VolumeVoxel voxel = voxel_of(0.8);
-    const auto half = [&](float many) {
-        return blocked(depths_on_way(voxel, 0, many, {0.3f, 0.3f, 0.0f}, {0.3f, 0.3f, 0.5f}).z);
-    };
-    EXPECT_NEAR(half(1.0f), 1.0 - std::sqrt(0.2), 1e-3);
-    EXPECT_GT(half(0.3f), half(0.0f) + 0.02);
-    const Vec3f whole = depths_on_way(voxel, 0, 0.3f, {0.3f, 0.3f, 0.0f}, {0.3f, 0.3f, 1.0f});
-    EXPECT_NEAR(blocked(whole.z), 0.8, 1e-3); // along the axis it makes no difference
-}
-
 TEST(DepthsOnWay, CellsThatRoundingAddedCountLess) {
     const VolumeVoxel voxel = voxel_of(0.10); // of two bits, .125
-    const Vec3f depth = depths_on_way(voxel, 3u << 0, 0.0f, {0, 0.1f, 0.1f}, {1, 0.1f, 0.1f});
+    const Vec3f depth = depths_on_way(voxel, 3u << 0, {0, 0.1f, 0.1f}, {1, 0.1f, 0.1f});
     EXPECT_NEAR(blocked(depth.x), 0.8, 1e-3);
 }
 

@@ -64,16 +64,7 @@ VolumeLevel::VolumeLevel(const VoxelSource& source) : info_(source.info()) {
     const std::vector<std::uint16_t> table = depth_table(info_.lattice);
     voxels_.reserve(static_cast<std::size_t>(info_.voxel_count));
     lobes_.reserve(static_cast<std::size_t>(info_.lobe_count));
-    float thinnest = 0.0f;
-    for (const Material& m : info_.materials) {
-        fibers_only_ &= m.kind == MaterialKind::Fiber;
-        if (m.fiber_radius > 0.0f && !(m.fiber_radius > thinnest && thinnest > 0.0f)) {
-            thinnest = m.fiber_radius;
-        }
-    }
-    const Vec3d h = info_.lattice.voxel_size;
-    const auto edge = static_cast<float>(std::max({h.x, h.y, h.z}));
-    if (thinnest > 0.0f) fibers_across_ = std::log2(edge / thinnest);
+    for (const Material& m : info_.materials) fibers_only_ &= m.kind == MaterialKind::Fiber;
     VoxelBlock scratch;
     for (std::size_t b = 0; b < source.block_count(); ++b) append(source.block(b, scratch), table);
     if (leaves_.size() >= std::size_t{1} << 31) {
