@@ -17,7 +17,6 @@ HAIR = "[material.it]\nmodel = \"hair\"\nmelanin = [{}, 0.1]\nwidth_m = 0.2\nwid
 FIBER = "[material.it]\nmodel = \"lobe_fiber\"\ncolor_r = 0.04\ncolor_tt = {}\nwidth_r = 8\nwidth_tt = 27\nazimuth_tt = 38\n"
 ALL = "materials = { \"*\" = \"it\" }\n"
 COTTON1 = os.path.join(DATA, "params/zhao2016/cotton1.txt")
-COTTON = "yarn = \"cotton\"\nyarn_radius = 0.1\n"
 SKY = "[[light]]\nkind = \"constant\"\ncolor = [0.1, 0.12, 0.15]\n"
 GRAZING = SKY + protocol.sun_text([1.0, 0.25, -0.2], [6.0, 5.6, 5.0])
 # name: input (a file, or what is generated), options of voxelize, keys of the object, the rest of the scene
@@ -28,8 +27,8 @@ SCENES = {
     "smallpine": ("mesh/smallpine/scene.gltf", ["--voxels", 512], "", ""),
     "helmet": ("mesh/DamagedHelmet.glb", ["--voxels", 512], "", ""),
     "lamp": ("mesh/AnisotropyBarnLamp/AnisotropyBarnLamp.gltf", ["--voxels", 768], "", ""),
-    "plain": (["plain", "--counts", "24,24"], ["--voxels", 1024, "--yarn", "cotton", "--yarn-radius", 0.1], COTTON + ALL, FIBER.format("[0.9, 0.6, 0.3]") + GRAZING),
-    "satin": (["satin", "--counts", "24,24"], ["--voxels", 1024, "--yarn", "silk", "--yarn-radius", 0.1], COTTON.replace("cotton", "silk") + ALL,
+    "plain": (["plain", "--counts", "24,24"], ["--voxels", 1024, "--yarn", "cotton"], "yarn = \"cotton\"\n" + ALL, FIBER.format("[0.9, 0.6, 0.3]") + GRAZING),
+    "satin": (["satin", "--counts", "24,24"], ["--voxels", 1024, "--yarn", "silk"], "yarn = \"silk\"\n" + ALL,
               FIBER.format("[0.5, 0.6, 0.95]") + GRAZING),
     "sweater": ("yarn/bcc/sweater_flame_ribbing.bcc", ["--voxels", 1024, "--yarn", COTTON1], f"yarn = \"{COTTON1}\"\n" + ALL + "".join(
         f"[[object.it.instance]]\ntranslate = {list(at)}\n" for at in ((-30, 0, 0), (100, 10, -580), (240, 260, -2400))),
