@@ -119,6 +119,7 @@ public:
         ray_ = ray;
         rate_ = to_float(Vec3d{std::fabs(ray.direction.x), std::fabs(ray.direction.y),
                                std::fabs(ray.direction.z)});
+        if (any_ && flight_) left_ = draw(); // levels share no threshold
         any_ = false;
     }
     /// @return  false: nothing behind matters

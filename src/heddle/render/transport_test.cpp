@@ -12,12 +12,13 @@ using namespace heddle::testing;
 
 /// Random voxels with footprints of 4 x 4 cells, as many bits as their coverage rounds to, and random
 /// correlation.
-Volume volume_with_extras(MaterialKind kind = MaterialKind::Fiber) {
+std::shared_ptr<const VolumeLevel> random_level(MaterialKind kind, int level) {
     VoxelMap voxels;
     StreamRandom random{3};
     add_random(voxels, random, {-3, -3, -3}, 6, 150, 0.9);
     VoxelGrid grid;
-    grid.about.lattice = {{1, 1, 1}, 8};
+    grid.about.lattice = lattice_of_level({{1, 1, 1}, 8}, level);
+    grid.about.level = level;
     grid.about.materials.resize(1);
     grid.about.materials[0].kind = kind;
     grid.about.fields.footprints = 4;
@@ -38,30 +39,52 @@ Volume volume_with_extras(MaterialKind kind = MaterialKind::Fiber) {
             block.correlation.push_back({byte(), byte(), byte()});
         }
     }
-    return {{std::make_shared<const VolumeLevel>(grid)}, {}, {0}};
+    return std::make_shared<const VolumeLevel>(grid);
+}
+
+Volume volume_with_extras(MaterialKind kind = MaterialKind::Fiber) {
+    return {{random_level(kind, 0)}, {}, {0}};
 }
 
 const LevelChoice kFinest{0, 0.0f, 0.5f};
 
-TEST(Transport, FlightsPassAsOftenAsTransmittanceSays) {
-    const Volume volume = volume_with_extras();
+void expect_equal_laws(const Volume& volume, const LevelChoice& choice, const Ray& ray) {
     for (const Transport t : {Transport::Product, Transport::Threshold, Transport::Footprint}) {
         StreamRandom random{11};
-        for (int r = 0; r < 6; ++r) {
-            const Vec3d from = to_double(random_direction(random)) * (r < 2 ? 1.0 : 8.0);
-            Ray ray = ray_along(from, to_double(random_direction(random)) * 2.0 - from);
-            ray.t_max = r % 2 == 0 ? 3.0f : 30.0f;
-            constexpr int kDraws = 20000;
-            double passed = 0.0, expected = 0.0;
-            for (int i = 0; i < kDraws; ++i) {
-                VolumeHit hit;
-                passed += volume.sample_flight(ray, t, kFinest, random, hit) ? 0.0 : 1.0;
-                expected += static_cast<double>(volume.transmittance(ray, t, kFinest, random));
-            }
-            const double share = expected / kDraws;
-            const double error = std::sqrt(std::max(share * (1.0 - share), 1e-4) * 2.0 / kDraws);
-            EXPECT_NEAR(passed / kDraws, share, 4.0 * error) << static_cast<int>(t) << ' ' << r;
+        constexpr int kDraws = 20000;
+        double passed = 0.0, expected = 0.0;
+        for (int i = 0; i < kDraws; ++i) {
+            VolumeHit hit;
+            passed += volume.sample_flight(ray, t, choice, random, hit) ? 0.0 : 1.0;
+            expected += static_cast<double>(volume.transmittance(ray, t, choice, random));
         }
+        const double share = expected / kDraws;
+        const double error = std::sqrt(std::max(share * (1.0 - share), 1e-4) * 2.0 / kDraws);
+        EXPECT_NEAR(passed / kDraws, share, 4.0 * error) << static_cast<int>(t);
+    }
+}
+
+TEST(Transport, FlightsPassAsOftenAsTransmittanceSays) {
+    const Volume volume = volume_with_extras();
+    StreamRandom random{11};
+    for (int r = 0; r < 6; ++r) {
+        const Vec3d from = to_double(random_direction(random)) * (r < 2 ? 1.0 : 8.0);
+        Ray ray = ray_along(from, to_double(random_direction(random)) * 2.0 - from);
+        ray.t_max = r % 2 == 0 ? 3.0f : 30.0f;
+        expect_equal_laws(volume, kFinest, ray);
+    }
+}
+
+TEST(Transport, FlightsPassAsOftenWhereTheLevelChanges) {
+    const Volume volume{
+        {random_level(MaterialKind::Fiber, 0), random_level(MaterialKind::Fiber, 1)}, {}, {0}};
+    StreamRandom random{12};
+    for (int r = 0; r < 6; ++r) {
+        const Vec3d from = to_double(random_direction(random)) * 6.0;
+        Ray ray = ray_along(from, to_double(random_direction(random)) - from);
+        ray.width = 0.5f;
+        ray.spread = 0.25f; // 2 voxels wide in the middle
+        expect_equal_laws(volume, {-1, 0.0f, 0.0f}, ray);
     }
 }
 
