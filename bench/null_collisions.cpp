@@ -142,7 +142,7 @@ void run(const std::string& path, std::size_t count) {
         const VolumeLevel level(*grid);
         const LevelRays rays = make_rays(level, count);
         const auto walk = [&](const VoxelRay& ray, const RayRange& range, StreamRandom& random) {
-            TransportWalker walker(Transport::Product, true, random);
+            TransportWalker walker(Transport::Product, true, 0.0f, random);
             walker.enter(level, ray);
             walk_voxels(level, ray, range.t0, range.t1,
                         [&](const VoxelStep& step) { return walker.pass(level, step); });

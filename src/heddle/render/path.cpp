@@ -147,12 +147,23 @@ private:
         return event.size / std::max(cosine, kLeastCosine);
     }
 
+    /// How far a ray from a fiber in a volume runs into the bulk behind the fiber: 1 straight on, 0 back
+    /// the way it came. Chosen as clear_of.
+    [[nodiscard]] static float bulk_of(const Event& event, Vec3f wi, Vec3f direction) {
+        return event.fiber ? std::clamp(0.25f - 0.75f * dot(wi, direction), 0.0f, 1.0f) : 0.0f;
+    }
+
     /// A ray that starts at an event, clear of the surface it stands on.
     [[nodiscard]] static Ray
     leave(const Event& event, Vec3d at, Vec3f wi, Vec3f direction, float width, float spread) {
         const float side = dot(direction, event.normal) < 0.0f ? -event.offset : event.offset;
-        return {at + to_double(event.normal * side), direction, kInfinity, width, spread,
-                clear_of(event, wi, direction)};
+        return {at + to_double(event.normal * side),
+                direction,
+                kInfinity,
+                width,
+                spread,
+                clear_of(event, wi, direction),
+                bulk_of(event, wi, direction)};
     }
 
     [[nodiscard]] Vec3f direct_light(const Event& event, Vec3d at, Vec3f wi, float width) {

@@ -17,6 +17,7 @@ struct Ray {
 
     [[nodiscard]] Vec3d at(double t) const { return origin + to_double(direction) * t; }
     [[nodiscard]] float width_at(float t) const { return width + spread * t; }
+    float bulk = 0.0f; ///< 1: it runs into the bulk of what it starts on; 0: in the open
 };
 
 } // namespace heddle

@@ -61,16 +61,19 @@ enum class Transport : std::uint8_t {
 ///
 /// A ray along an axis meets one cell, set or not; an oblique one the swept share of set cells is its
 /// coverage c. A covered column is blocked at one place in it: of a way through the part d of the
-/// voxel along the axis c d is blocked. (Depths that add up, 1 - (1 - c)^d, hold for fine dust.)
+/// voxel along the axis c d is blocked. Depths that add up, 1 - (1 - c)^d, hold for fine dust, and in
+/// the bulk of a yarn, many fibers behind each other.
 /// Where rounding set more cells than were covered they are thinned; where it set none the voxel is
 /// even.
 /// @param voxel       its own depths
 /// @param footprints  VolumeLevel::footprints
+/// @param bulk        share of depths that add up
 /// @param in, out     where the ray enters and leaves, in [0, 1]^3 of the voxel
 [[nodiscard]] inline Vec3f
-depths_on_way(const VolumeVoxel& voxel, std::uint64_t footprints, Vec3f in, Vec3f out) {
+depths_on_way(const VolumeVoxel& voxel, std::uint64_t footprints, float bulk, Vec3f in, Vec3f out) {
     constexpr int kPoints = 4;
     constexpr float kFull = 1.0f - 1.0f / 128.0f; // a cell stands for its columns: never opaque
+    constexpr float kFullBulk = 1.0f - 1e-4f;
     std::array<int, 3> hits{};
     const Vec3f way = out - in;
     const Vec3f step = way * (4.0f / kPoints);
@@ -96,7 +99,8 @@ depths_on_way(const VolumeVoxel& voxel, std::uint64_t footprints, Vec3f in, Vec3
             const float share = static_cast<float>(std::popcount(bits)) * (1.0f / 16.0f);
             swept = static_cast<float>(hit) * (1.0f / kPoints) * std::min(1.0f, covered / share);
         }
-        depth[a] = -std::log(1.0f - std::min(swept * part, kFull));
+        depth[a] = -std::log(1.0f - std::min(swept * part, kFull)) * (1.0f - bulk);
+        if (bulk > 0.0f) depth[a] -= std::log(1.0f - std::min(swept, kFullBulk)) * part * bulk;
     }
     return depth;
 }
@@ -111,8 +115,9 @@ depths_on_way(const VolumeVoxel& voxel, std::uint64_t footprints, Vec3f in, Vec3
 class TransportWalker {
 public:
     /// @param flight  draw where the ray stops; else sum the depth of what passes
-    TransportWalker(Transport asked, bool flight, StreamRandom& random)
-        : asked_(asked), flight_(flight), random_(random), left_(draw()) {}
+    /// @param bulk    Ray::bulk
+    TransportWalker(Transport asked, bool flight, float bulk, StreamRandom& random)
+        : asked_(asked), flight_(flight), bulk_(bulk), random_(random), left_(draw()) {}
 
     void enter(const VolumeLevel& level, const VoxelRay& ray) {
         kind_ = resolve(asked_, level);
@@ -141,7 +146,7 @@ public:
             largest_ = 0.0f;
         }
         const Vec3f depths = kind_ == Transport::Footprint
-                                 ? depths_on_way(voxel, level.footprints(step.voxel),
+                                 ? depths_on_way(voxel, level.footprints(step.voxel), bulk_,
                                                  inside(step, step.t_in), inside(step, step.t_out))
                                  : depths_of(voxel) * distance;
         const float depth = combine_depths(depths);
@@ -189,6 +194,7 @@ private:
     Transport asked_;
     Transport kind_ = Transport::Product;
     bool flight_;
+    float bulk_;
     StreamRandom& random_;
     float left_;           ///< the threshold; with Product what is left of one for all voxels
     float depth_ = 0.0f;   ///< of what passes

@@ -71,6 +71,7 @@ TEST(Transport, FlightsPassAsOftenAsTransmittanceSays) {
         const Vec3d from = to_double(random_direction(random)) * (r < 2 ? 1.0 : 8.0);
         Ray ray = ray_along(from, to_double(random_direction(random)) * 2.0 - from);
         ray.t_max = r % 2 == 0 ? 3.0f : 30.0f;
+        ray.bulk = r < 3 ? 0.0f : 0.5f;
         expect_equal_laws(volume, kFinest, ray);
     }
 }
@@ -150,7 +151,7 @@ TEST(DepthsOnWay, ARayAlongAnAxisIsStoppedInSetCellsAlone) {
                 const bool set = a == 0   ? u == 1 && v == 2
                                  : a == 1 ? u == 0 && v == 3
                                           : u == 2 && v == 1;
-                const Vec3f depth = depths_on_way(voxel, bits, in, out);
+                const Vec3f depth = depths_on_way(voxel, bits, 0.0f, in, out);
                 EXPECT_NEAR(blocked(depth[a]), set ? 0.99 : 0.0, 0.005);
                 EXPECT_EQ(depth[(a + 1) % 3], 0.0f);
             }
@@ -161,14 +162,22 @@ TEST(DepthsOnWay, ARayAlongAnAxisIsStoppedInSetCellsAlone) {
 TEST(DepthsOnWay, AColumnIsBlockedAtOnePlaceInIt) {
     const VolumeVoxel voxel = voxel_of(0.8); // no bits: even
     for (const float part : {0.1f, 0.5f, 1.0f}) {
-        const Vec3f depth = depths_on_way(voxel, 0, {0.3f, 0.3f, 0.0f}, {0.3f, 0.3f, part});
+        const Vec3f depth = depths_on_way(voxel, 0, 0.0f, {0.3f, 0.3f, 0.0f}, {0.3f, 0.3f, part});
         EXPECT_NEAR(blocked(depth.z), 0.8 * static_cast<double>(part), 1e-3);
+    }
+}
+
+TEST(DepthsOnWay, InTheBulkDepthsAddUp) {
+    const VolumeVoxel voxel = voxel_of(0.8);
+    for (const float part : {0.1f, 0.5f, 1.0f}) {
+        const Vec3f depth = depths_on_way(voxel, 0, 1.0f, {0.3f, 0.3f, 0.0f}, {0.3f, 0.3f, part});
+        EXPECT_NEAR(blocked(depth.z), 1.0 - std::pow(0.2, static_cast<double>(part)), 1e-3);
     }
 }
 
 TEST(DepthsOnWay, CellsThatRoundingAddedCountLess) {
     const VolumeVoxel voxel = voxel_of(0.10); // of two bits, .125
-    const Vec3f depth = depths_on_way(voxel, 3u << 0, {0, 0.1f, 0.1f}, {1, 0.1f, 0.1f});
+    const Vec3f depth = depths_on_way(voxel, 3u << 0, 0.0f, {0, 0.1f, 0.1f}, {1, 0.1f, 0.1f});
     EXPECT_NEAR(blocked(depth.x), 0.8, 1e-3);
 }
 

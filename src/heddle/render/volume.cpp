@@ -122,7 +122,7 @@ bool Volume::sample_flight(const Ray& ray,
                            const LevelChoice& choice,
                            StreamRandom& random,
                            VolumeHit& hit) const {
-    TransportWalker walker(transport, true, random);
+    TransportWalker walker(transport, true, ray.bulk, random);
     walk(ray, choice, walker, [&](int level, const VoxelStep& step) {
         hit = {walker.t(), level, &step.leaf, step.voxel};
     });
@@ -133,7 +133,7 @@ float Volume::transmittance(const Ray& ray,
                             Transport transport,
                             const LevelChoice& choice,
                             StreamRandom& random) const {
-    TransportWalker walker(transport, false, random);
+    TransportWalker walker(transport, false, ray.bulk, random);
     walk(ray, choice, walker, [](int, const VoxelStep&) {});
     return walker.transmittance();
 }
