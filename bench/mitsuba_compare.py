@@ -4,7 +4,8 @@
 usage: bench/mitsuba_compare.py [--size 256] [--spp 4] [--picture 64] [--picture-spp 256] [--variant scalar_rgb] [--keep DIR]
 The scarf part is voxelized from its Mitsuba 0.6 dictionary, exported by `heddle export` (the dense box, and doubled on each axis) and rendered by
 Mitsuba and by `heddle render --transport flakes`: albedo .8 .8 .9, depth 64, Russian roulette from 5. Speed: --size and --spp; pictures to
-compare: --picture and --picture-spp; the mean ratio is of the pixels that are not sky alone. FLIP of the pictures in sRGB, and FLIP of two of Heddle's own of other seeds: what noise alone makes.
+compare: --picture and --picture-spp; the mean ratio is of the pixels that are not sky alone. FLIP of the pictures in sRGB, and FLIP of two of Heddle's own of other seeds: what noise alone makes. Variance x time: Mitsuba's over Heddle's,
+from two pictures each.
 Needs build/release/bin/heddle (or HEDDLE=...), ../shared/data (or HEDDLE_TEST_DATA=...), and Python with mitsuba, numpy, flip-evaluator, OpenEXR.
 """
 import argparse
@@ -23,7 +24,7 @@ DATA = os.environ.get("HEDDLE_TEST_DATA", os.path.join(ROOT, "../shared/data"))
 
 
 def render_mitsuba(scene_xml, variant, runs):
-    """In a process of its own, so that the peak is Mitsuba's. runs: [(size, spp, .npy or '')]"""
+    """In a process of its own, so that the peak is Mitsuba's. runs: [(size, spp, seed, .npy or '')]"""
     import mitsuba as mi
     import numpy as np
     mi.set_variant(variant)
@@ -31,12 +32,12 @@ def render_mitsuba(scene_xml, variant, runs):
     mi.load_file(scene_xml, spp=1, width=16, height=16)
     load = time.perf_counter() - start
     results = []
-    for size, spp, out in runs:
+    for size, spp, seed, out in runs:
         scene = mi.load_file(scene_xml, spp=spp, width=size, height=size)
         if variant.startswith("llvm"):
             np.array(mi.render(scene, spp=spp, seed=99))  # compiles
         start = time.perf_counter()
-        image = np.array(mi.render(scene, spp=spp, seed=1))
+        image = np.array(mi.render(scene, spp=spp, seed=seed))
         results.append(size * size * spp / (time.perf_counter() - start))
         if out:
             np.save(out, image)
@@ -85,6 +86,13 @@ def render_heddle(toml, size, spp, out, seed=0):
     return result["rate"], result["peak_memory_bytes"] / 1048576
 
 
+def cost(pictures, seen, rate):
+    """Relative variance of a pixel's luminance x seconds a path, of two pictures of other seeds: what equal noise takes."""
+    import numpy as np
+    a, b = (p[seen] @ np.array([0.2126, 0.7152, 0.0722]) for p in pictures)
+    return float(((a - b) ** 2).mean() / 2 / ((a + b).mean() / 2) ** 2 / rate)
+
+
 def read_exr(path):
     import numpy as np
     import OpenEXR
@@ -107,22 +115,23 @@ def compare(name, folder, vdb, pad, o):
     import numpy as np
     box = heddle("export", vdb, "-o", folder, "--pad", pad)["resolution"]
     toml = write_toml(folder, vdb)
-    runs = [(o.size, o.spp, "")] + ([(o.picture, o.picture_spp, f"{folder}/mitsuba.npy")] if o.picture_spp else [])
+    runs = [(o.size, o.spp, 1, "")] + [(o.picture, o.picture_spp, seed, f"{folder}/mitsuba{seed}.npy") for seed in (1, 2) if o.picture_spp]
     out = subprocess.run([sys.executable, __file__, "--mitsuba", f"{folder}/scene.xml", "--variant", o.variant, "--runs",
                           json.dumps(runs)], check=True, capture_output=True, text=True).stdout
     theirs = json.loads(out.splitlines()[-1])
     ours, peak = render_heddle(toml, o.size, 4 * o.spp, f"{folder}/speed.exr")
-    quality = "- | - | -"
+    quality = "- | - | - | -"
     if o.picture_spp:
         pictures = []
         for seed in (0, 1):
             path = f"{folder}/heddle{seed}.exr"
-            render_heddle(toml, o.picture, o.picture_spp, path, seed)
+            rate, _ = render_heddle(toml, o.picture, o.picture_spp, path, seed)
             pictures.append(read_exr(path))
-        reference = np.load(f"{folder}/mitsuba.npy")
+        references = [np.load(f"{folder}/mitsuba{seed}.npy") for seed in (1, 2)]
+        reference = references[0]
         seen = np.ptp(reference.reshape(-1, 3) / reference[0, 0], -1).reshape(reference.shape[:2]) > 1e-3  # not the sky alone
         ratio = pictures[0][seen].mean() / reference[seen].mean()
-        quality = f"{flip(reference, pictures[0]):.4f} | {flip(pictures[1], pictures[0]):.4f} | {ratio:.4f}"
+        quality = f"{flip(reference, pictures[0]):.4f} | {flip(pictures[1], pictures[0]):.4f} | {ratio:.4f} | {cost(references, seen, theirs['rates'][1]) / cost(pictures, seen, rate):.1f}"
     print(f"| {name}, {' x '.join(map(str, box))} | {theirs['rates'][0]:.0f} | {ours:.0f} | {ours / theirs['rates'][0]:.1f} | "
           f"{theirs['peak']:.0f} | {peak:.0f} | {theirs['peak'] / peak:.1f} | {quality} |", flush=True)
 
@@ -149,8 +158,8 @@ def main():
         vdb = f"{folder}/scarf.vdb"
         heddle("voxelize", dictionary, "-o", vdb, "--levels", 0, "--albedo", ".8,.8,.9")
         print("| box | Mitsuba paths/s | Heddle paths/s | ratio | Mitsuba peak MiB | Heddle peak MiB | ratio | FLIP | FLIP of noise | "
-              "mean ratio |")
-        print("|---|---|---|---|---|---|---|---|---|---|", flush=True)
+              "mean ratio | variance x time |")
+        print("|---|---|---|---|---|---|---|---|---|---|---|", flush=True)
         for name, pad in (("dense", 1), ("doubled", 2)):
             if o.only in (None, name):
                 compare(name, f"{folder}/{name}", vdb, pad, o)

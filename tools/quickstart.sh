@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# From nothing to a picture: packages, build, a knitted swatch, its volume, its preview; then a table of what was done.
+# From nothing to a picture: packages, build, a knitted swatch, its volume, its picture; then a table of what was done.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 out=build/quickstart
@@ -28,6 +28,6 @@ step build "echo $heddle" build
 step generate "size_of $out/knit.bcc" "$heddle" generate knit -o "$out/knit.bcc"
 step voxelize "size_of $out/knit.vdb" \
     "$heddle" voxelize "$out/knit.bcc" --yarn cotton -o "$out/knit.vdb"
-step preview "size_of $out/knit.png" "$heddle" preview "$out/knit.vdb" -o "$out/knit.png"
+step render "size_of $out/knit.png" "$heddle" render "$out/knit.vdb" -o "$out/knit.png" --samples 32
 
 printf '\n%-10s %8s  %s\n%s' step seconds result "$table"
