@@ -80,29 +80,12 @@ std::string_view to_string(YarnModel model) {
     return "solid";
 }
 
-void Problems::add(std::int64_t line, std::string text) {
-    problems_.push_back({line, std::move(text)});
-}
-
-void Problems::throw_if_any() const {
-    if (problems_.empty()) return;
-    constexpr std::size_t most = 8; // one line is to be read, not scrolled
-    std::string text = problems_[0].text;
-    for (std::size_t i = 1; i < std::min(most, problems_.size()); ++i) {
-        text += problems_[i].line > 0 ? str("; line ", problems_[i].line, ": ") : "; ";
-        text += problems_[i].text;
-    }
-    if (problems_.size() > most) text += str("; and ", problems_.size() - most, " more");
-    const std::int64_t line = problems_[0].line > 0 ? problems_[0].line : -1;
-    throw Error(ErrorCode::BadFile, text, {}, {.path = path_, .line = line});
-}
-
 void set_field(YarnType& yarn,
                const Field& field,
                std::string_view key,
                const std::vector<double>& numbers,
                std::int64_t line,
-               Problems& problems) {
+               FileProblems& problems) {
     const auto set = [&](auto member) {
         using T = std::remove_reference_t<decltype(yarn.*member)>;
         constexpr bool pair = std::is_same_v<T, MeanSd>;
@@ -137,7 +120,7 @@ void set_field(YarnType& yarn,
     std::visit(set, field.member);
 }
 
-std::string complete(YarnType& yarn, Problems& problems) {
+std::string complete(YarnType& yarn, FileProblems& problems) {
     if (yarn.fiber_count() > kMostFibers) {
         problems.add(0, str("the yarn has ", yarn.fiber_count(), " fibers, at most ", kMostFibers,
                             " are allowed"));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <heddle/geom/yarn.h>
+#include <heddle/io/problems.h>
 
 #include <cstdint>
 #include <string>
@@ -34,22 +35,17 @@ struct Field {
 [[nodiscard]] const std::vector<Field>& fields();
 [[nodiscard]] std::string_view to_string(YarnModel model);
 
-/// Collects what is wrong with a file, to be thrown as one Error.
-class Problems {
+/// What is wrong with one file, by its lines.
+class FileProblems {
 public:
-    explicit Problems(std::string path) : path_(std::move(path)) {}
+    explicit FileProblems(std::string path) : path_(std::move(path)) {}
     /// @param line  1-based; 0: the file as a whole
-    void add(std::int64_t line, std::string text);
-    /// @throws BadFile when there is any
-    void throw_if_any() const;
+    void add(std::int64_t line, const std::string& text) { all_.add({path_, line}, text); }
+    [[nodiscard]] Problems& all() { return all_; }
 
 private:
-    struct Problem {
-        std::int64_t line;
-        std::string text;
-    };
     std::string path_;
-    std::vector<Problem> problems_;
+    Problems all_;
 };
 
 /// Sets a field from its numbers (a flag: 0 or 1), or adds why it cannot.
@@ -58,11 +54,11 @@ void set_field(YarnType& yarn,
                std::string_view key,
                const std::vector<double>& numbers,
                std::int64_t line,
-               Problems& problems);
+               FileProblems& problems);
 
 /// Checks what no field can tell alone, and fills in the fiber radius where it is 0.
 /// @return a note on the fiber radius, or nothing
-[[nodiscard]] std::string complete(YarnType& yarn, Problems& problems);
+[[nodiscard]] std::string complete(YarnType& yarn, FileProblems& problems);
 
 /// "; did you mean 'x'?" with the known key that is nearest, then the known keys if they are few.
 [[nodiscard]] std::string suggest(std::string_view key, const std::vector<std::string_view>& known);

@@ -1,9 +1,8 @@
 #include <heddle/io/yarn_file.h>
 
 #include <heddle/base/error.h>
+#include <heddle/io/toml_text.h>
 #include <heddle/io/yarn_file_form.h>
-
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <array>
@@ -18,11 +17,11 @@ namespace heddle {
 namespace {
 
 using yarn_form::Field;
-using yarn_form::Problems;
+using yarn_form::FileProblems;
 
-YarnFile finish(YarnType yarn, Problems& problems) {
+YarnFile finish(YarnType yarn, FileProblems& problems) {
     const std::string note = yarn_form::complete(yarn, problems);
-    problems.throw_if_any();
+    problems.all().throw_if_any();
     YarnFile file{std::move(yarn), {}};
     if (!note.empty()) file.notes.push_back(note);
     return file;
@@ -62,7 +61,7 @@ constexpr std::array<std::string_view, 5> kFitSettings{"aabb_min", "aabb_max", "
 using Lines = std::map<std::string, std::int64_t, std::less<>>; ///< key to the line it stands on
 
 void read_fit_line(
-    std::string_view line, std::int64_t n, YarnType& yarn, Lines& seen, Problems& p) {
+    std::string_view line, std::int64_t n, YarnType& yarn, Lines& seen, FileProblems& p) {
     const std::size_t colon = line.find(':');
     if (colon == std::string_view::npos) {
         p.add(n, "is no line 'key: value'");
@@ -89,7 +88,7 @@ void read_fit_line(
     p.add(n, str("unknown key '", key.substr(0, 64), "'", yarn_form::suggest(key, known)));
 }
 
-void require_fit_keys(const YarnType& yarn, const Lines& seen, Problems& problems) {
+void require_fit_keys(const YarnType& yarn, const Lines& seen, FileProblems& problems) {
     for (const Field& field : yarn_form::fields()) {
         const std::string_view key = field.fit_key;
         const bool migration = key == "s_i" || key.substr(0, 4) == "rho_";
@@ -123,7 +122,7 @@ std::int64_t line_of(const toml::node& node) {
     return static_cast<std::int64_t>(node.source().begin.line);
 }
 
-void read_model(const toml::table& table, YarnType& yarn, Problems& problems) {
+void read_model(const toml::table& table, YarnType& yarn, FileProblems& problems) {
     const toml::node* node = table.get("model");
     if (node == nullptr) {
         problems.add(0, "'model' is missing; it is \"procedural\", \"slice\" or \"solid\"");
@@ -145,7 +144,7 @@ void read_text_key(const toml::node& node,
                    const std::string& path,
                    const LoadTexture& load,
                    YarnType& yarn,
-                   Problems& problems) {
+                   FileProblems& problems) {
     const auto text = node.value_exact<std::string>();
     if (!text || text->empty()) {
         problems.add(line_of(node), str("'", key, "' must be text that is not empty"));
@@ -164,7 +163,7 @@ void read_text_key(const toml::node& node,
 void read_number_key(const toml::node& node,
                      std::string_view key,
                      YarnType& yarn,
-                     Problems& problems) {
+                     FileProblems& problems) {
     std::vector<std::string_view> known{"model", "name", "slice"};
     for (const Field& field : yarn_form::fields()) {
         known.push_back(field.key);
@@ -185,19 +184,6 @@ void read_number_key(const toml::node& node,
     }
     problems.add(line_of(node),
                  str("unknown key '", key.substr(0, 64), "'", yarn_form::suggest(key, known)));
-}
-
-/// A yarn has no tables, and toml++ 3.3 assumes without checking that a header's third character is
-/// no bracket: "[[[" is undefined behaviour there, so no header reaches it.
-void refuse_tables(std::string_view text, const std::string& path) {
-    for (std::int64_t n = 1; !text.empty(); ++n) {
-        const std::size_t end = text.find('\n');
-        if (const auto line = trim(text.substr(0, end)); !line.empty() && line.front() == '[') {
-            throw Error(ErrorCode::BadFile, "a yarn has no tables", "write 'key = value' lines",
-                        {.path = path, .line = n});
-        }
-        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    }
 }
 
 /// The shortest decimal that reads back as the same float.
@@ -223,7 +209,7 @@ std::string toml_value(const YarnType& yarn, const Field& field) {
 } // namespace
 
 YarnFile parse_yarn_fit(const std::string& text, const std::string& path) {
-    Problems problems(path);
+    FileProblems problems(path);
     YarnType yarn;
     yarn.model = YarnModel::Procedural;
     yarn.name = std::filesystem::path(path).stem().string();
@@ -242,22 +228,14 @@ YarnFile parse_yarn_fit(const std::string& text, const std::string& path) {
 
 YarnFile
 parse_yarn_toml(const std::string& text, const std::string& path, const LoadTexture& load) {
-    refuse_tables(text, path);
-    toml::table table;
-    try {
-        table = toml::parse(text, path);
-    } catch (const toml::parse_error& e) {
-        throw Error(ErrorCode::BadFile, std::string(e.description()), {},
-                    {.path = path,
-                     .line = static_cast<std::int64_t>(e.source().begin.line),
-                     .column = static_cast<std::int64_t>(e.source().begin.column)});
-    }
-    Problems problems(path);
+    FileProblems problems(path);
+    const auto table = parse_toml(text, path, problems.all());
+    problems.all().throw_if_any();
     YarnType yarn;
     yarn.name = std::filesystem::path(path).stem().string();
-    read_model(table, yarn, problems);
-    problems.throw_if_any(); // which keys there are depends on it
-    for (const auto& [key, node] : table) {
+    read_model(*table, yarn, problems);
+    problems.all().throw_if_any(); // which keys there are depends on it
+    for (const auto& [key, node] : *table) {
         if (key == "model") continue;
         if (key == "name" || key == "slice") {
             read_text_key(node, key, path, load, yarn, problems);
@@ -265,7 +243,7 @@ parse_yarn_toml(const std::string& text, const std::string& path, const LoadText
             read_number_key(node, key, yarn, problems);
         }
     }
-    if (yarn.model == YarnModel::Slice && !table.contains("slice")) {
+    if (yarn.model == YarnModel::Slice && !table->contains("slice")) {
         problems.add(0, "'slice' is missing, the path of the cross-section's image");
     }
     return finish(std::move(yarn), problems);

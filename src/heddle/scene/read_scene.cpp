@@ -3,8 +3,8 @@
 #include <heddle/base/error.h>
 #include <heddle/base/nearest_name.h>
 #include <heddle/io/input_file.h>
+#include <heddle/io/toml_text.h>
 #include <heddle/scene/scene_parts.h>
-#include <heddle/scene/toml_text.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -14,8 +14,6 @@ namespace heddle {
 namespace {
 
 using scene_form::MaterialUse;
-using scene_form::Place;
-using scene_form::Problems;
 using scene_form::TableReader;
 
 /// A scene is written by people or made by a script; a larger file is something else.
@@ -83,17 +81,12 @@ void SceneDraft::include(const std::string& path, const Place& place) {
 }
 
 void SceneDraft::read_text(const std::string& path, const std::string& text) {
-    if (!scene_form::check_toml_text(text, path, problems_)) return;
+    const auto table = parse_toml(text, path, problems_);
+    if (!table) return;
     const std::string id = canonical(path);
     open_.push_back(id);
-    try {
-        const toml::table table = toml::parse(text, path);
-        TableReader file(table, {path, 0}, "a scene file", problems_);
-        read_tables(file);
-    } catch (const toml::parse_error& e) {
-        problems_.add(scene_form::Place{path, static_cast<std::int64_t>(e.source().begin.line)},
-                      str("is no TOML: ", e.description()), "correct it");
-    }
+    TableReader file(*table, {path, 0}, "a scene file", problems_);
+    read_tables(file);
     open_.pop_back();
     read_.insert(id);
 }

@@ -1,11 +1,11 @@
-#include <heddle/scene/problems.h>
+#include <heddle/io/problems.h>
 
 #include <heddle/base/error.h>
 
 #include <algorithm>
 #include <tuple>
 
-namespace heddle::scene_form {
+namespace heddle {
 
 std::string to_string(const Place& place) {
     return place.line > 0 ? str(place.path, ":", place.line) : place.path;
@@ -23,7 +23,8 @@ void Problems::throw_if_any() {
     if (problems_.empty()) return;
     constexpr std::size_t kMost = 100; // more come from a file that is something else
     std::stable_sort(problems_.begin(), problems_.end(), [](const Problem& a, const Problem& b) {
-        return std::tie(a.file, a.line) < std::tie(b.file, b.line);
+        const bool a_whole = a.line <= 0, b_whole = b.line <= 0;
+        return std::tie(a.file, a_whole, a.line) < std::tie(b.file, b_whole, b.line);
     });
     std::vector<std::string> lines;
     for (std::size_t i = 0; i < std::min(kMost, problems_.size()); ++i) {
@@ -33,4 +34,4 @@ void Problems::throw_if_any() {
     throw Error::of_lines(ErrorCode::BadFile, lines);
 }
 
-} // namespace heddle::scene_form
+} // namespace heddle

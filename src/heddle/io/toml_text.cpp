@@ -1,4 +1,4 @@
-#include <heddle/scene/toml_text.h>
+#include <heddle/io/toml_text.h>
 
 #include <heddle/base/error.h>
 
@@ -6,7 +6,7 @@
 #include <cctype>
 #include <map>
 
-namespace heddle::scene_form {
+namespace heddle {
 namespace {
 
 constexpr std::string_view kBom = "\xEF\xBB\xBF";
@@ -141,8 +141,16 @@ private:
 
 } // namespace
 
-bool check_toml_text(std::string_view text, const std::string& path, Problems& problems) {
-    return Walk(text, path, problems).check();
+std::optional<toml::table>
+parse_toml(std::string_view text, const std::string& path, Problems& problems) {
+    if (!Walk(text, path, problems).check()) return std::nullopt;
+    try {
+        return toml::parse(text, path);
+    } catch (const toml::parse_error& e) {
+        problems.add({path, static_cast<std::int64_t>(e.source().begin.line)},
+                     str("is no TOML: ", e.description()), "correct it");
+        return std::nullopt;
+    }
 }
 
-} // namespace heddle::scene_form
+} // namespace heddle
