@@ -147,10 +147,10 @@ private:
         return event.size / std::max(cosine, kLeastCosine);
     }
 
-    /// How far a ray from a fiber in a volume runs into the bulk behind the fiber: 1 straight on, 0 back
-    /// the way it came. Chosen as clear_of.
+    /// How far a ray from a fiber in a volume runs into the bulk behind the fiber: 1 straight on, 0
+    /// aside and back the way it came. Chosen as clear_of.
     [[nodiscard]] static float bulk_of(const Event& event, Vec3f wi, Vec3f direction) {
-        return event.fiber ? std::clamp(0.25f - 0.75f * dot(wi, direction), 0.0f, 1.0f) : 0.0f;
+        return event.fiber ? std::max(0.0f, -dot(wi, direction)) : 0.0f;
     }
 
     /// A ray that starts at an event, clear of the surface it stands on.
