@@ -29,7 +29,8 @@ struct Event {
     Vec3f normal{}; ///< geometric; zero in a volume
     float offset = 0.0f;
     bool fiber = false; ///< in a volume, as VolumeScatter
-    float size = 0.0f;
+    float radius = 0.0f;
+    float edge = 0.0f;
 };
 
 class PathTracer {
@@ -115,7 +116,8 @@ private:
         event.scatterer = drawn.scatterer;
         event.material = drawn.material;
         event.fiber = drawn.fiber;
-        event.size = drawn.size;
+        event.radius = drawn.radius;
+        event.edge = drawn.edge;
         event.level = static_cast<float>(nearest.level);
         event.normal = {};
         event.offset = 0.0f;
@@ -132,19 +134,20 @@ private:
         return largest(hit.radiance) > 0.0f;
     }
 
-    /// How far from an event in a volume nothing stops a ray: the way there was free, and what the ray
-    /// starts on does not shade itself. Voxels that know no places would stop it at once. Chosen by
+    /// How far from an event in a volume nothing stops a ray: what it starts on does not shade it,
+    /// and the way it came was free. Voxels that know no places would stop it at once. Chosen by
     /// brightness against traced geometry (docs/transport.md).
     [[nodiscard]] static float clear_of(const Event& event, Vec3f wi, Vec3f direction) {
         constexpr float kRadii = 2.0f;     // of what a fiber shades of itself
-        constexpr float kBackRadii = 5.0f; // the way the ray came
+        constexpr float kBackEdges = 2.0f; // the way the ray came
         constexpr float kLeastCosine = 0.25f;
         if (event.fiber) {
             const float back = std::max(0.0f, dot(wi, direction));
-            return (kRadii + (kBackRadii - kRadii) * back * back) * event.size;
+            const float back_4 = back * back * back * back;
+            return std::max(kRadii * event.radius, kBackEdges * event.edge * back_4 * back_4);
         }
         const float cosine = std::fabs(dot(direction, event.scatterer.axis));
-        return event.size / std::max(cosine, kLeastCosine);
+        return event.edge / std::max(cosine, kLeastCosine);
     }
 
     /// How far a ray from a fiber in a volume runs into the bulk behind the fiber: 1 straight on, 0

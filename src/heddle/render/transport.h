@@ -61,19 +61,26 @@ enum class Transport : std::uint8_t {
 ///
 /// A ray along an axis meets one cell, set or not; an oblique one the swept share of set cells is its
 /// coverage c. A covered column is blocked at one place in it: of a way through the part d of the
-/// voxel along the axis c d is blocked. Depths that add up, 1 - (1 - c)^d, hold for fine dust, and in
-/// the bulk of a yarn, many fibers behind each other.
+/// voxel along the axis c d is blocked. Depths that add up, 1 - (1 - c)^d, hold for fine dust; `many`
+/// is their share. In the bulk of a yarn, fibers behind fibers, they add up and are kBulk times as
+/// large, since fibers stand closer there than their coverage tells.
 /// Where rounding set more cells than were covered they are thinned; where it set none the voxel is
 /// even.
 /// @param voxel       its own depths
 /// @param footprints  VolumeLevel::footprints
-/// @param bulk        share of depths that add up
+/// @param many        many_of(level)
+/// @param bulk        Ray::bulk
 /// @param in, out     where the ray enters and leaves, in [0, 1]^3 of the voxel
-[[nodiscard]] inline Vec3f
-depths_on_way(const VolumeVoxel& voxel, std::uint64_t footprints, float bulk, Vec3f in, Vec3f out) {
+[[nodiscard]] inline Vec3f depths_on_way(const VolumeVoxel& voxel,
+                                         std::uint64_t footprints,
+                                         float many,
+                                         float bulk,
+                                         Vec3f in,
+                                         Vec3f out) {
     constexpr int kPoints = 4;
     constexpr float kFull = 1.0f - 1.0f / 128.0f; // a cell stands for its columns: never opaque
     constexpr float kFullBulk = 1.0f - 1e-4f;
+    constexpr float kBulk = 1.5f;
     std::array<int, 3> hits{};
     const Vec3f way = out - in;
     const Vec3f step = way * (4.0f / kPoints);
@@ -99,10 +106,23 @@ depths_on_way(const VolumeVoxel& voxel, std::uint64_t footprints, float bulk, Ve
             const float share = static_cast<float>(std::popcount(bits)) * (1.0f / 16.0f);
             swept = static_cast<float>(hit) * (1.0f / kPoints) * std::min(1.0f, covered / share);
         }
-        depth[a] = -std::log(1.0f - std::min(swept * part, kFull)) * (1.0f - bulk);
-        if (bulk > 0.0f) depth[a] -= std::log(1.0f - std::min(swept, kFullBulk)) * part * bulk;
+        depth[a] = -(1.0f - many) * std::log(1.0f - std::min(swept * part, kFull));
+        if (many > 0.0f) depth[a] -= many * part * std::log(1.0f - std::min(swept, kFull));
+        if (bulk > 0.0f) {
+            const float behind = -kBulk * part * std::log(1.0f - std::min(swept, kFullBulk));
+            depth[a] += bulk * (behind - depth[a]);
+        }
     }
     return depth;
+}
+
+/// How far a level's columns hold many fibers behind each other, in [0, .3]: grows with the voxel's
+/// edge in fiber radii. Chosen by transmittance against traced geometry (docs/transport.md).
+[[nodiscard]] inline float many_of(const VolumeLevel& level) {
+    constexpr float kFrom = 4.5f; // log2 of an edge of 23 radii
+    constexpr float kRise = 0.15f;
+    constexpr float kMost = 0.3f;
+    return std::clamp((level.fibers_across() - kFrom) * kRise, 0.0f, kMost);
 }
 
 /// Walks a ray through voxels of one transport: as a free flight, or for its transmittance.
@@ -121,6 +141,7 @@ public:
 
     void enter(const VolumeLevel& level, const VoxelRay& ray) {
         kind_ = resolve(asked_, level);
+        many_ = many_of(level);
         ray_ = ray;
         rate_ = to_float(Vec3d{std::fabs(ray.direction.x), std::fabs(ray.direction.y),
                                std::fabs(ray.direction.z)});
@@ -146,7 +167,7 @@ public:
             largest_ = 0.0f;
         }
         const Vec3f depths = kind_ == Transport::Footprint
-                                 ? depths_on_way(voxel, level.footprints(step.voxel), bulk_,
+                                 ? depths_on_way(voxel, level.footprints(step.voxel), many_, bulk_,
                                                  inside(step, step.t_in), inside(step, step.t_out))
                                  : depths_of(voxel) * distance;
         const float depth = combine_depths(depths);
@@ -194,6 +215,7 @@ private:
     Transport asked_;
     Transport kind_ = Transport::Product;
     bool flight_;
+    float many_ = 0.0f;
     float bulk_;
     StreamRandom& random_;
     float left_;           ///< the threshold; with Product what is left of one for all voxels

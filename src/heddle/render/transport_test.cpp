@@ -151,7 +151,7 @@ TEST(DepthsOnWay, ARayAlongAnAxisIsStoppedInSetCellsAlone) {
                 const bool set = a == 0   ? u == 1 && v == 2
                                  : a == 1 ? u == 0 && v == 3
                                           : u == 2 && v == 1;
-                const Vec3f depth = depths_on_way(voxel, bits, 0.0f, in, out);
+                const Vec3f depth = depths_on_way(voxel, bits, 0.0f, 0.0f, in, out);
                 EXPECT_NEAR(blocked(depth[a]), set ? 0.99 : 0.0, 0.005);
                 EXPECT_EQ(depth[(a + 1) % 3], 0.0f);
             }
@@ -159,25 +159,38 @@ TEST(DepthsOnWay, ARayAlongAnAxisIsStoppedInSetCellsAlone) {
     }
 }
 
+/// Of a way along z through a part of an even voxel.
+double blocked_of(double coverage, float part, float many, float bulk) {
+    const Vec3f in{0.3f, 0.3f, 0.0f}, out{0.3f, 0.3f, part};
+    return blocked(depths_on_way(voxel_of(coverage), 0, many, bulk, in, out).z);
+}
+
 TEST(DepthsOnWay, AColumnIsBlockedAtOnePlaceInIt) {
-    const VolumeVoxel voxel = voxel_of(0.8); // no bits: even
     for (const float part : {0.1f, 0.5f, 1.0f}) {
-        const Vec3f depth = depths_on_way(voxel, 0, 0.0f, {0.3f, 0.3f, 0.0f}, {0.3f, 0.3f, part});
-        EXPECT_NEAR(blocked(depth.z), 0.8 * static_cast<double>(part), 1e-3);
+        EXPECT_NEAR(blocked_of(0.8, part, 0.0f, 0.0f), 0.8 * static_cast<double>(part), 1e-3);
     }
 }
 
-TEST(DepthsOnWay, InTheBulkDepthsAddUp) {
-    const VolumeVoxel voxel = voxel_of(0.8);
+TEST(DepthsOnWay, OfManyFibersBehindEachOtherDepthsAddUp) {
     for (const float part : {0.1f, 0.5f, 1.0f}) {
-        const Vec3f depth = depths_on_way(voxel, 0, 1.0f, {0.3f, 0.3f, 0.0f}, {0.3f, 0.3f, part});
-        EXPECT_NEAR(blocked(depth.z), 1.0 - std::pow(0.2, static_cast<double>(part)), 1e-3);
+        const double dust = 1.0 - std::pow(0.2, static_cast<double>(part));
+        EXPECT_NEAR(blocked_of(0.8, part, 1.0f, 0.0f), dust, 1e-3);
+    }
+    EXPECT_GT(blocked_of(0.8, 0.5f, 0.3f, 0.0f), 0.4 + 0.02);
+    EXPECT_NEAR(blocked_of(0.8, 1.0f, 0.3f, 0.0f), 0.8, 1e-3); // along the axis no difference
+}
+
+TEST(DepthsOnWay, InTheBulkTheyAddUpAndAreLarger) {
+    for (const float part : {0.1f, 0.5f, 1.0f}) {
+        const double bulk = 1.0 - std::pow(0.2, 1.5 * static_cast<double>(part));
+        EXPECT_NEAR(blocked_of(0.8, part, 0.0f, 1.0f), bulk, 1e-3);
+        EXPECT_NEAR(blocked_of(0.8, part, 0.3f, 1.0f), bulk, 1e-3);
     }
 }
 
 TEST(DepthsOnWay, CellsThatRoundingAddedCountLess) {
     const VolumeVoxel voxel = voxel_of(0.10); // of two bits, .125
-    const Vec3f depth = depths_on_way(voxel, 3u << 0, 0.0f, {0, 0.1f, 0.1f}, {1, 0.1f, 0.1f});
+    const Vec3f depth = depths_on_way(voxel, 3u << 0, 0.0f, 0.0f, {0, 0.1f, 0.1f}, {1, 0.1f, 0.1f});
     EXPECT_NEAR(blocked(depth.x), 0.8, 1e-3);
 }
 

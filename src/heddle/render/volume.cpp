@@ -176,8 +176,10 @@ VolumeScatter Volume::scatter(const VolumeHit& hit,
     VolumeScatter drawn;
     drawn.material = materials_[level.lobe(chosen).material];
     drawn.fiber = fiber;
-    drawn.size = fiber ? level.info().materials[level.lobe(chosen).material].fiber_radius * scale_
-                       : static_cast<float>(std::ldexp(voxel_size_, hit.level));
+    if (fiber) {
+        drawn.radius = level.info().materials[level.lobe(chosen).material].fiber_radius * scale_;
+    }
+    drawn.edge = static_cast<float>(std::ldexp(voxel_size_, hit.level));
     Scatterer& out = drawn.scatterer;
     out.material = materials[drawn.material];
     if (const LobeMaps* maps = level.maps(chosen)) {

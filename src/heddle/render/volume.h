@@ -32,8 +32,8 @@ struct VolumeScatter {
     Scatterer scatterer;
     std::uint32_t material = 0; ///< of the scene's
     bool fiber = false;         ///< a tangent was drawn; else a normal
-    float size =
-        0.0f; ///< world units: of a fiber its radius, 0 where unknown; else the voxel's edge
+    float radius = 0.0f;        ///< of a fiber, world units; 0 where unknown
+    float edge = 0.0f;          ///< of the voxel, world units
 };
 
 /// Which level a ray walks.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace heddle {
@@ -64,7 +65,15 @@ VolumeLevel::VolumeLevel(const VoxelSource& source) : info_(source.info()) {
     const std::vector<std::uint16_t> table = depth_table(info_.lattice);
     voxels_.reserve(static_cast<std::size_t>(info_.voxel_count));
     lobes_.reserve(static_cast<std::size_t>(info_.lobe_count));
-    for (const Material& m : info_.materials) fibers_only_ &= m.kind == MaterialKind::Fiber;
+    constexpr float kUnknown = std::numeric_limits<float>::infinity();
+    float thinnest = kUnknown;
+    for (const Material& m : info_.materials) {
+        fibers_only_ &= m.kind == MaterialKind::Fiber;
+        if (m.fiber_radius > 0.0f) thinnest = std::min(thinnest, m.fiber_radius);
+    }
+    const Vec3d h = info_.lattice.voxel_size;
+    const auto edge = static_cast<float>(std::max({h.x, h.y, h.z}));
+    if (thinnest < kUnknown) fibers_across_ = std::log2(edge / thinnest);
     VoxelBlock scratch;
     for (std::size_t b = 0; b < source.block_count(); ++b) append(source.block(b, scratch), table);
     if (leaves_.size() >= std::size_t{1} << 31) {

@@ -83,6 +83,8 @@ public:
     }
     /// No material is of surfaces.
     [[nodiscard]] bool fibers_only() const { return fibers_only_; }
+    /// log2 of the voxel's longest edge over the thinnest fiber's radius; 0 where no radius is known.
+    [[nodiscard]] float fibers_across() const { return fibers_across_; }
     [[nodiscard]] bool has_footprints() const { return !footprints_.empty(); }
     /// Footprints of 4 x 4 cells along x, y, z, 16 bits each from the lowest on: bit 4 b + a, a and b
     /// the cell's place on the next two axes.
@@ -115,6 +117,7 @@ private:
 
     VoxelGridInfo info_;
     bool fibers_only_ = true;
+    float fibers_across_ = 0.0f;
     Vec3i lo_{}, hi_{};
     std::vector<std::uint32_t> slots_;
     std::vector<Tile> tiles_;
