@@ -139,12 +139,12 @@ private:
     /// brightness against traced geometry (docs/transport.md).
     [[nodiscard]] static float clear_of(const Event& event, Vec3f wi, Vec3f direction) {
         constexpr float kRadii = 2.0f;     // of what a fiber shades of itself
-        constexpr float kBackEdges = 2.0f; // the way the ray came
+        constexpr float kBackEdges = 6.0f; // the way the ray came, some 17 degrees wide
         constexpr float kLeastCosine = 0.25f;
         if (event.fiber) {
             const float back = std::max(0.0f, dot(wi, direction));
-            const float back_4 = back * back * back * back;
-            return std::max(kRadii * event.radius, kBackEdges * event.edge * back_4 * back_4);
+            const float way_back = kBackEdges * event.edge * std::pow(back, 16.0f);
+            return std::max(kRadii * event.radius, way_back);
         }
         const float cosine = std::fabs(dot(direction, event.scatterer.axis));
         return event.edge / std::max(cosine, kLeastCosine);

@@ -255,7 +255,7 @@ double by_chance(const PathScene& scene, const Ray& ray, StreamRandom& random) {
     if (!(s.pdf > 0.0f)) return 0.0;
     Ray on = ray_along(ray.at(static_cast<double>(hit.t)), to_double(s.direction));
     const float back = std::max(0.0f, -dot(ray.direction, s.direction));
-    on.clear = 2.0f * std::pow(back, 8.0f); // as paths have it, for edges of 1
+    on.clear = 6.0f * std::pow(back, 16.0f); // as paths have it, for edges of 1
     LightHit light;
     float radiance = 0.0f;
     if (scene.lights.intersect(on, light)) {
