@@ -52,6 +52,7 @@ function(heddle_add_module path)
     include(GoogleTest)
     add_executable(heddle_${room}_test ${A_TESTS})
     target_link_libraries(heddle_${room}_test PRIVATE heddle::${room} GTest::gtest_main)
+    target_compile_options(heddle_${room}_test PRIVATE ${HEDDLE_TEST_FLAGS})
     target_compile_definitions(heddle_${room}_test PRIVATE HEDDLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}") # of real data
     gtest_discover_tests(heddle_${room}_test TEST_PREFIX "${room}." PROPERTIES LABELS "unit\;${room}")
   endif()
