@@ -269,12 +269,13 @@ void FlakeMedium::walk(const GridRay& ray, const Visit& visit) const {
     }
 }
 
-bool FlakeMedium::sample_flight(const Ray& ray, StreamRandom& random, FlakeHit& hit) const {
-    const GridRay r = enter(ray);
+/// Calls collide(where, sigma_t, majorant, t) -> bool at tentative collisions, exponentially far apart
+/// by the leaves' majorants, until it gives false. t counts from ray.t0, majorants in 1 / t.
+template <typename Collide>
+void FlakeMedium::track(const GridRay& ray, StreamRandom& random, const Collide& collide) const {
     float left = -std::log(1.0f - random.uniform());
-    bool stopped = false;
-    walk(r, [&](std::uint32_t leaf, Vec3f from, Vec3f direction, float t, float out) {
-        const float majorant = grid_->majorant(leaf) * r.length;
+    walk(ray, [&](std::uint32_t leaf, Vec3f from, Vec3f direction, float t, float out) {
+        const float majorant = grid_->majorant(leaf) * ray.length;
         const float step = 1.0f / majorant;
         for (;;) {
             const float next = t + left * step;
@@ -284,18 +285,23 @@ bool FlakeMedium::sample_flight(const Ray& ray, StreamRandom& random, FlakeHit& 
             }
             t = next;
             const FlakeGrid::Lookup at = FlakeGrid::look_up(leaf, from + direction * t);
-            const float sigma_t = grid_->sigma_t(leaf, at);
-            const float wanted = random.uniform() * majorant;
-            if (wanted < sigma_t * r.length * kLargestFlake) {
-                const SggxMatrix S = grid_->S(at);
-                if (wanted < sigma_t * projected_area(S, r.w)) {
-                    hit = {r.t0 + t, S, grid_->albedo(at)};
-                    stopped = true;
-                    return false;
-                }
-            }
+            if (!collide(at, grid_->sigma_t(leaf, at), majorant, t)) return false;
             left = -std::log(1.0f - random.uniform());
         }
+    });
+}
+
+bool FlakeMedium::sample_flight(const Ray& ray, StreamRandom& random, FlakeHit& hit) const {
+    const GridRay r = enter(ray);
+    bool stopped = false;
+    track(r, random, [&](const FlakeGrid::Lookup& at, float sigma_t, float majorant, float t) {
+        const float wanted = random.uniform() * majorant;
+        if (!(wanted < sigma_t * r.length * kLargestFlake)) return true;
+        const SggxMatrix S = grid_->S(at);
+        if (!(wanted < sigma_t * projected_area(S, r.w))) return true;
+        hit = {r.t0 + t, S, grid_->albedo(at)};
+        stopped = true;
+        return false;
     });
     return stopped;
 }
@@ -304,29 +310,17 @@ float FlakeMedium::transmittance(const Ray& ray, StreamRandom& random) const {
     constexpr float kLittle = 0.25f; // below it, Russian roulette
     const GridRay r = enter(ray);
     float passes = 1.0f;
-    float left = -std::log(1.0f - random.uniform());
-    walk(r, [&](std::uint32_t leaf, Vec3f from, Vec3f direction, float t, float out) {
-        const float majorant = grid_->majorant(leaf) * r.length;
-        const float step = 1.0f / majorant;
-        for (;;) {
-            const float next = t + left * step;
-            if (!(next < out)) {
-                left -= (out - t) * majorant;
-                return true;
-            }
-            t = next;
-            left = -std::log(1.0f - random.uniform());
-            const FlakeGrid::Lookup at = FlakeGrid::look_up(leaf, from + direction * t);
-            const float sigma_t = grid_->sigma_t(leaf, at);
-            if (!(sigma_t > 0.0f)) continue;
-            passes *= std::max(0.0f, 1.0f - sigma_t * projected_area(grid_->S(at), r.w) * step);
-            if (passes >= kLittle) continue;
-            if (random.uniform() * kLittle >= passes) {
-                passes = 0.0f;
-                return false;
-            }
-            passes = kLittle;
+    track(r, random, [&](const FlakeGrid::Lookup& at, float sigma_t, float majorant, float) {
+        if (!(sigma_t > 0.0f)) return true;
+        const float stopped = sigma_t * projected_area(grid_->S(at), r.w) / majorant;
+        passes *= std::max(0.0f, 1.0f - stopped);
+        if (passes >= kLittle) return true;
+        if (random.uniform() * kLittle >= passes) {
+            passes = 0.0f;
+            return false;
         }
+        passes = kLittle;
+        return true;
     });
     return passes;
 }

@@ -112,6 +112,8 @@ private:
     [[nodiscard]] GridRay enter(const Ray& ray) const;
     template <typename Visit>
     void walk(const GridRay& ray, const Visit& visit) const;
+    template <typename Collide>
+    void track(const GridRay& ray, StreamRandom& random, const Collide& collide) const;
 
     std::shared_ptr<const FlakeGrid> grid_;
     Affine to_object_;
