@@ -269,8 +269,8 @@ void FlakeMedium::walk(const GridRay& ray, const Visit& visit) const {
     }
 }
 
-/// Calls collide(where, sigma_t, majorant, t) -> bool at tentative collisions, exponentially far apart
-/// by the leaves' majorants, until it gives false. t counts from ray.t0, majorants in 1 / t.
+/// Calls collide(where, density, t) -> bool at tentative collisions, exponentially far apart by the
+/// leaves' majorants, until it gives false. density: sigma_t / majorant. t counts from ray.t0.
 template <typename Collide>
 void FlakeMedium::track(const GridRay& ray, StreamRandom& random, const Collide& collide) const {
     float left = -std::log(1.0f - random.uniform());
@@ -284,9 +284,9 @@ void FlakeMedium::track(const GridRay& ray, StreamRandom& random, const Collide&
                 return true;
             }
             t = next;
-            const FlakeGrid::Lookup at = FlakeGrid::look_up(leaf, from + direction * t);
-            if (!collide(at, grid_->sigma_t(leaf, at), majorant, t)) return false;
             left = -std::log(1.0f - random.uniform());
+            const FlakeGrid::Lookup at = FlakeGrid::look_up(leaf, from + direction * t);
+            if (!collide(at, grid_->sigma_t(leaf, at) * step, t)) return false;
         }
     });
 }
@@ -294,11 +294,11 @@ void FlakeMedium::track(const GridRay& ray, StreamRandom& random, const Collide&
 bool FlakeMedium::sample_flight(const Ray& ray, StreamRandom& random, FlakeHit& hit) const {
     const GridRay r = enter(ray);
     bool stopped = false;
-    track(r, random, [&](const FlakeGrid::Lookup& at, float sigma_t, float majorant, float t) {
-        const float wanted = random.uniform() * majorant;
-        if (!(wanted < sigma_t * r.length * kLargestFlake)) return true;
+    track(r, random, [&](const FlakeGrid::Lookup& at, float density, float t) {
+        const float wanted = random.uniform();
+        if (!(wanted < density * r.length * kLargestFlake)) return true;
         const SggxMatrix S = grid_->S(at);
-        if (!(wanted < sigma_t * projected_area(S, r.w))) return true;
+        if (!(wanted < density * projected_area(S, r.w))) return true;
         hit = {r.t0 + t, S, grid_->albedo(at)};
         stopped = true;
         return false;
@@ -310,10 +310,9 @@ float FlakeMedium::transmittance(const Ray& ray, StreamRandom& random) const {
     constexpr float kLittle = 0.25f; // below it, Russian roulette
     const GridRay r = enter(ray);
     float passes = 1.0f;
-    track(r, random, [&](const FlakeGrid::Lookup& at, float sigma_t, float majorant, float) {
-        if (!(sigma_t > 0.0f)) return true;
-        const float stopped = sigma_t * projected_area(grid_->S(at), r.w) / majorant;
-        passes *= std::max(0.0f, 1.0f - stopped);
+    track(r, random, [&](const FlakeGrid::Lookup& at, float density, float) {
+        if (!(density > 0.0f)) return true;
+        passes *= std::max(0.0f, 1.0f - density * projected_area(grid_->S(at), r.w));
         if (passes >= kLittle) return true;
         if (random.uniform() * kLittle >= passes) {
             passes = 0.0f;
