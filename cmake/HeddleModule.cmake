@@ -2,7 +2,7 @@
 # One call per folder: target heddle_<room>, alias heddle::<room>, test binary heddle_<room>_test.
 # Every library is installed with its headers: the core in one export set, the rooms above it in another,
 # so that a machine without their libraries can still link the core (cmake/heddle-config.cmake.in).
-set(HEDDLE_CORE_ROOMS base gpu geom sggx voxel lod)
+set(HEDDLE_CORE_ROOMS base gpu geom sggx voxel lod device)
 add_library(heddle_flags INTERFACE)
 set(_w -Wall -Wextra -Wshadow -Wconversion -Wdouble-promotion -Wundef -Wnon-virtual-dtor -Woverloaded-virtual -ffp-contract=off)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
