@@ -36,21 +36,4 @@ HEDDLE_HD inline std::uint32_t atomic_add(std::uint32_t* at, std::uint32_t x) {
 #endif
 }
 
-/// Within a group (executor.h), whose items are one thread's on the host: no other thread of the
-/// host comes between.
-HEDDLE_HD inline void group_or(std::uint64_t* at, std::uint64_t bits) {
-#if HEDDLE_DEVICE_PASS
-    atomic_or(at, bits);
-#else
-    *at |= bits;
-#endif
-}
-HEDDLE_HD inline void group_add(std::uint64_t* at, std::uint64_t x) {
-#if HEDDLE_DEVICE_PASS
-    atomic_add(at, x);
-#else
-    *at += x;
-#endif
-}
-
 } // namespace heddle::gpu

@@ -1,0 +1,122 @@
+#pragma once
+
+#include <heddle/base/error.h>
+#include <heddle/gpu/array.h>
+
+#include <cub/device/device_scan.cuh>
+#include <cuda_runtime.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace heddle::gpu {
+
+template <typename Op>
+__global__ void for_each_kernel(const __grid_constant__ Op op, std::size_t n) {
+    const std::size_t i = std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
+    if (i < n) op(i);
+}
+
+/// Runs on the current CUDA device, in a stream of its own: calls of several executors overlap. See
+/// HostExecutor, which has the same calls. Memory comes from the device's pool, in stream order.
+class CudaExecutor final : public Allocator {
+public:
+    /// @throws Error  Device: no stream
+    explicit CudaExecutor(Budget& budget) : Allocator(budget) {
+        check(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking), "a stream");
+    }
+    ~CudaExecutor() override { cudaStreamDestroy(stream_); }
+
+    template <typename T>
+    [[nodiscard]] Array<T> make(std::size_t n) {
+        return Array<T>(*this, n);
+    }
+    template <typename T>
+    [[nodiscard]] Array<T> make_zero(std::size_t n) {
+        Array<T> out(*this, n);
+        if (n > 0) check(cudaMemsetAsync(out.data(), 0, n * sizeof(T), stream_), "clearing");
+        return out;
+    }
+    template <typename T>
+    [[nodiscard]] Array<T> make_from(std::span<const T> host) {
+        Array<T> out(*this, host.size());
+        upload(out.data(), host);
+        return out;
+    }
+    /// Fastest from pinned memory (gpu/pinned.h).
+    template <typename T>
+    void upload(T* to, std::span<const T> from) {
+        if (from.empty()) return;
+        check(cudaMemcpyAsync(to, from.data(), from.size_bytes(), cudaMemcpyHostToDevice, stream_),
+              "upload");
+    }
+    template <typename T>
+    void download(std::span<T> to, const T* from) {
+        if (to.empty()) return;
+        check(cudaMemcpyAsync(to.data(), from, to.size_bytes(), cudaMemcpyDeviceToHost, stream_),
+              "download");
+        wait();
+    }
+    template <typename T>
+    [[nodiscard]] T read(const T* at) {
+        T out;
+        download(std::span<T>(&out, 1), at);
+        return out;
+    }
+    void wait() { check(cudaStreamSynchronize(stream_), "waiting"); }
+
+    template <typename Op>
+    void for_each(std::size_t n, const Op& op) {
+        if (n == 0) return;
+        constexpr std::size_t kThreads = 128;
+        const std::size_t blocks = (n + kThreads - 1) / kThreads;
+        if (blocks > 0x7fffffffu) {
+            throw Error(ErrorCode::Device,
+                        str(stage(), ": ", n, " items are too many for one launch"),
+                        "lower --device-memory");
+        }
+        for_each_kernel<<<static_cast<unsigned>(blocks), kThreads, 0, stream_>>>(op, n);
+        check(cudaGetLastError(), "launch");
+    }
+    template <typename In, typename Out>
+    void offsets(const In* count, Out* first, std::size_t n) {
+        if (n > 0x7fffffffu) {
+            throw Error(ErrorCode::Device,
+                        str(stage(), ": ", n, " counts are too many for one scan"),
+                        "lower --device-memory");
+        }
+        check(cudaMemsetAsync(first, 0, sizeof(Out), stream_), "clearing");
+        if (n == 0) return;
+        std::size_t bytes = 0;
+        const auto scan = [&](void* work) {
+            return cub::DeviceScan::InclusiveScanInit(work, bytes, count, first + 1,
+                                                      ::cuda::std::plus<Out>{}, Out{},
+                                                      static_cast<int>(n), stream_);
+        };
+        check(scan(nullptr), "scan");
+        const Array<std::byte> work = make<std::byte>(bytes);
+        check(scan(work.data()), "scan");
+    }
+
+private:
+    void check(cudaError_t status, const char* what) const {
+        if (status == cudaSuccess) return;
+        const bool memory = status == cudaErrorMemoryAllocation;
+        throw Error(memory ? ErrorCode::OutOfMemory : ErrorCode::Device,
+                    str(stage(), ": ", what, ": ", cudaGetErrorString(status), ", with ",
+                        budget().used(), " bytes of device memory in use"),
+                    memory ? "lower --device-memory" : "use --device cpu");
+    }
+    void* allocate(std::size_t bytes) override {
+        void* data = nullptr;
+        check(cudaMallocAsync(&data, bytes, stream_), "memory");
+        return data;
+    }
+    // a failure here is reported by the next checked call
+    void release(void* data) noexcept override { cudaFreeAsync(data, stream_); }
+
+    cudaStream_t stream_ = nullptr;
+};
+
+} // namespace heddle::gpu
