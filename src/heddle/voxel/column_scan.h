@@ -138,7 +138,7 @@ HEDDLE_INLINE std::uint64_t scan_columns(const Cylinder& k,
                                          const LatticeUnits& u,
                                          int c,
                                          const ColumnRange (&range)[3],
-                                         const OnHit& on_hit) {
+                                         OnHit&& on_hit) {
     const int a = c == 0 ? 1 : 0;
     const int b = c == 2 ? 1 : 2;
     const ColumnRange ra = range[a];

@@ -1,10 +1,10 @@
 #pragma once
 
+#include <heddle/base/bits.h>
 #include <heddle/voxel/accumulator.h>
 #include <heddle/voxel/column_scan.h>
 
-#include <array>
-#include <bit>
+#include <cstdint>
 
 namespace heddle {
 
@@ -34,6 +34,26 @@ struct GatherTarget {
     FiberPaint paint;
 };
 
+/// Sums of one voxel's lobe, and of its maps where there are some (else null), as pool_fiber() adds.
+struct LobeAdder {
+    LobeSums& lobe;
+    MapSums* maps;
+
+    HEDDLE_INLINE void add_lobe(int, int field, std::int64_t x) const {
+        (field == 6 ? lobe.weight : lobe.moment[static_cast<std::size_t>(field)]) += x;
+    }
+    [[nodiscard]] HEDDLE_INLINE bool has_maps() const { return maps != nullptr; }
+    HEDDLE_INLINE void add_map(int, int field, std::int64_t x) const {
+        MapSums& m = *maps;
+        const auto i = static_cast<std::size_t>(field);
+        (i < 6     ? m.tangent[i]
+         : i < 9   ? m.albedo[i - 6]
+         : i == 9  ? m.roughness
+         : i == 10 ? m.metalness
+                   : m.anisotropy) += x;
+    }
+};
+
 /// Thicker than this, a fiber's directions are spread over the subvoxels it fills; thinner, along its
 /// centreline, which then is never far from what it fills. Units.
 constexpr float kThickRadius = 2.0f;
@@ -60,7 +80,11 @@ clip_to_voxel(Vec3f origin, Vec3f inv_dir, Vec3f voxel, float grow, AxialRange r
 }
 
 /// Sets the subvoxels whose centres lie in the cylinder, from a patch of columns along z: a run in each.
-HEDDLE_INLINE int mark_subvoxels(VoxelSums& sums,
+/// @param sums  has or_subvoxels(cell, word, bits)
+/// @return      subvoxels in the runs
+template <typename Sums>
+HEDDLE_INLINE int mark_subvoxels(const Sums& sums,
+                                 int cell,
                                  const LatticeUnits& u,
                                  const ColumnView& v,
                                  int a0,
@@ -73,7 +97,7 @@ HEDDLE_INLINE int mark_subvoxels(VoxelSums& sums,
     const auto most = static_cast<float>(u.n);
     int marked = 0;
     for (; hits != 0; hits &= hits - 1) {
-        const int lane = std::countr_zero(hits);
+        const int lane = lowest_bit(hits);
         const int x = a0 + (lane & 3);
         const int y = b0 + (lane >> 2);
         if (x >= u.n || y >= u.n) continue;
@@ -94,15 +118,30 @@ HEDDLE_INLINE int mark_subvoxels(VoxelSums& sums,
         const int count = (z.last < flat1 ? z.last : flat1) - first + 1;
         if (count <= 0) continue;
         const int bit = (x * u.n + y) * u.n + first;
-        sums.sub[static_cast<std::size_t>(bit >> 6)] |= ((std::uint64_t{1} << count) - 1)
-                                                        << (bit & 63);
+        sums.or_subvoxels(cell, bit >> 6, ((std::uint64_t{1} << count) - 1) << (bit & 63));
         marked += count;
     }
     return marked;
 }
 
-/// Pools `weight` (units^2, at least kGrazeWeight) of directions and the fiber's colour.
+/// Adds `weight` (units^2, at least kGrazeWeight) of directions and the fiber's colour.
+/// @param sums    has add_lobe(cell, field, x) with fields xx yy zz xy xz yz, weight; has_maps();
+///                add_map(cell, field, x) with fields as MapSums lies
 /// @param moment  second moment of the directions, trace 1: xx yy zz xy xz yz
+template <typename Sums>
+HEDDLE_INLINE void
+pool_fiber(const Sums& sums, int cell, const float* moment, float weight, std::uint32_t color) {
+    const float w = (weight > kGrazeWeight ? weight : kGrazeWeight) * kWeightScale;
+    for (int i = 0; i < 6; ++i) sums.add_lobe(cell, i, static_cast<std::int64_t>(moment[i] * w));
+    const auto area = static_cast<std::int64_t>(w);
+    sums.add_lobe(cell, 6, area);
+    if (!sums.has_maps()) return;
+    for (int i = 0; i < 3; ++i) sums.add_map(cell, 6 + i, area * ((color >> (8 * i)) & 0xff));
+    // a fiber's material has no such maps: its own numbers, unchanged
+    for (int i = 9; i < 12; ++i) sums.add_map(cell, i, 255 * area);
+}
+
+/// Pools directions in a voxel of a block: pool_fiber(), or with FitMode::Last in its place.
 HEDDLE_INLINE void pool_moment(BlockSums& block,
                                VoxelSums& voxel,
                                const float* moment,
@@ -110,32 +149,66 @@ HEDDLE_INLINE void pool_moment(BlockSums& block,
                                const FiberPaint& paint) {
     LobeSums& lobe = block.lobe(voxel, paint.material);
     if (paint.last) lobe = {.weight = 0, .material = lobe.material, .next = lobe.next};
-    const float w = (weight > kGrazeWeight ? weight : kGrazeWeight) * kWeightScale;
-    for (std::size_t i = 0; i < 6; ++i) lobe.moment[i] += static_cast<std::int64_t>(moment[i] * w);
-    const auto area = static_cast<std::int64_t>(w);
-    lobe.weight += area;
+    MapSums* maps = nullptr;
     if (block.has_maps()) {
-        MapSums& maps = block.maps(voxel, lobe);
-        if (paint.last) maps = {};
-        for (std::size_t i = 0; i < 3; ++i) {
-            maps.albedo[i] += area * ((paint.color >> (8 * i)) & 0xff);
-        }
-        // a fiber's material has no such maps: its own numbers, unchanged
-        maps.roughness += 255 * area;
-        maps.metalness += 255 * area;
-        maps.anisotropy += 255 * area;
+        maps = &block.maps(voxel, lobe);
+        if (paint.last) *maps = {};
     }
+    pool_fiber(LobeAdder{lobe, maps}, 0, moment, weight, paint.color);
 }
+
+/// What fibers of one material write to, over a block of the CPU: DenseSums is its twin on the device.
+struct FiberSums {
+    BlockSums& block;
+    const FiberPaint& paint;
+
+    HEDDLE_INLINE VoxelSums& voxel(int cell) const {
+        return block.voxel_at(static_cast<std::uint32_t>(cell));
+    }
+    HEDDLE_INLINE void or_column(int cell, int axis, std::uint64_t bits) const {
+        voxel(cell).column[static_cast<std::size_t>(axis)] |= bits;
+    }
+    HEDDLE_INLINE void or_subvoxels(int cell, int word, std::uint64_t bits) const {
+        voxel(cell).sub[static_cast<std::size_t>(word)] |= bits;
+    }
+    HEDDLE_INLINE void pool(int cell, const float* moment, float weight) const {
+        pool_moment(block, voxel(cell), moment, weight, paint);
+    }
+};
 
 /// Second moment of one direction: xx yy zz xy xz yz.
-HEDDLE_INLINE std::array<float, 6> moment_of(Vec3f d) {
-    return {d.x * d.x, d.y * d.y, d.z * d.z, d.x * d.y, d.x * d.z, d.y * d.z};
-}
+struct DirectionMoment {
+    float v[6];
+    HEDDLE_INLINE explicit DirectionMoment(Vec3f d)
+        : v{d.x * d.x, d.y * d.y, d.z * d.z, d.x * d.y, d.x * d.z, d.y * d.z} {}
+};
+
+/// scan_columns() without a use for depths.
+struct IgnoreHits {
+    HEDDLE_INLINE void
+    operator()(const ColumnView&, int, int, std::uint32_t, const PatchDepths&) const {}
+};
+/// Marks the subvoxels of the columns that scan_columns() finds, and counts them.
+template <typename Sums>
+struct MarkHits {
+    const Sums& sums;
+    const LatticeUnits& u;
+    int cell;
+    int marked = 0;
+    HEDDLE_INLINE void
+    operator()(const ColumnView& v, int a0, int b0, std::uint32_t hits, const PatchDepths& depths) {
+        marked += mark_subvoxels(sums, cell, u, v, a0, b0, hits, depths);
+    }
+};
 
 /// Adds a thick chord to one voxel. `k.origin` is relative to the voxel's corner.
-HEDDLE_INLINE void
-gather_voxel(const GatherTarget& t, const Cylinder& k, float length, Vec3f inv_dir, Vec3i at) {
-    const LatticeUnits& u = t.units;
+template <typename Sums>
+HEDDLE_INLINE void gather_voxel(const Sums& sums,
+                                const LatticeUnits& u,
+                                const Cylinder& k,
+                                float length,
+                                Vec3f inv_dir,
+                                int cell) {
     const AxialRange reach = clip_to_voxel(k.origin, inv_dir, u.voxel, k.radius, {k.lo, k.hi});
     if (!(reach.enter < reach.leave)) return;
     ColumnRange range[3];
@@ -145,35 +218,30 @@ gather_voxel(const GatherTarget& t, const Cylinder& k, float length, Vec3f inv_d
         range[a] = columns_in((p0 < p1 ? p0 : p1) - k.radius, (p0 < p1 ? p1 : p0) + k.radius,
                               u.inv_edge[a], u.n);
     }
-    const auto ignore = [](const ColumnView&, int, int, std::uint32_t, const PatchDepths&) {};
-    const std::uint64_t mx = scan_columns<false>(k, u, 0, range, ignore);
-    const std::uint64_t my = scan_columns<false>(k, u, 1, range, ignore);
-    VoxelSums* sums = nullptr;
-    int marked = 0;
-    const auto mark = [&](const ColumnView& v, int a0, int b0, std::uint32_t hits,
-                          const PatchDepths& depths) __attribute__((always_inline)) {
-        if (sums == nullptr) sums = &t.block.voxel(at.x, at.y, at.z);
-        marked += mark_subvoxels(*sums, u, v, a0, b0, hits, depths);
-    };
+    const std::uint64_t mx = scan_columns<false>(k, u, 0, range, IgnoreHits{});
+    const std::uint64_t my = scan_columns<false>(k, u, 1, range, IgnoreHits{});
+    MarkHits<Sums> mark{sums, u, cell};
     const std::uint64_t mz = scan_columns<true>(k, u, 2, range, mark);
     const AxialRange in = clip_to_voxel(k.origin, inv_dir, u.voxel, 0.0f, {0.0f, length});
     const bool passes = in.enter < in.leave;
     if ((mx | my | mz) == 0 && !passes) return;
-    VoxelSums& voxel = sums != nullptr ? *sums : t.block.voxel(at.x, at.y, at.z);
-    voxel.column[0] |= mx;
-    voxel.column[1] |= my;
-    voxel.column[2] |= mz;
+    if (mx != 0) sums.or_column(cell, 0, mx);
+    if (my != 0) sums.or_column(cell, 1, my);
+    if (mz != 0) sums.or_column(cell, 2, mz);
     // directed area, the projection 2 r L = (pi r^2 L) x 2 / (pi r), goes with the volume of the
     // subvoxels that it fills
     const float volume = u.edge.x * u.edge.y * u.edge.z;
-    const float weight = 0.63661977f * volume / k.radius * static_cast<float>(marked);
-    pool_moment(t.block, voxel, moment_of(k.dir).data(), weight, t.paint);
+    const float weight = 0.63661977f * volume / k.radius * static_cast<float>(mark.marked);
+    sums.pool(cell, DirectionMoment(k.dir).v, weight);
 }
 
-/// Adds a chord thicker than kThickRadius to the voxels of the block that its round body meets.
+/// Adds a chord thicker than kThickRadius to the voxels of a block that its round body meets.
+/// @param sums    as FiberSums
+/// @param size    of the block, voxels
 /// @param anchor  the voxel that the chord is relative to, relative to the block's lo
-HEDDLE_INLINE void gather_chord(const GatherTarget& t, const Chord& chord, Vec3i anchor) {
-    const LatticeUnits& u = t.units;
+template <typename Sums>
+HEDDLE_INLINE void gather_chord(
+    const Sums& sums, const LatticeUnits& u, Vec3i size, const Chord& chord, Vec3i anchor) {
     Vec3f inv_dir;
     int lo[3]{};
     int hi[3]{};
@@ -188,7 +256,7 @@ HEDDLE_INLINE void gather_chord(const GatherTarget& t, const Chord& chord, Vec3i
         lo[a] = floor_to_int(least) + anchor[a];
         hi[a] = floor_to_int(most) + anchor[a];
         lo[a] = lo[a] > 0 ? lo[a] : 0;
-        hi[a] = hi[a] < t.size[a] ? hi[a] : t.size[a] - 1;
+        hi[a] = hi[a] < size[a] ? hi[a] : size[a] - 1;
     }
     for (int x = lo[0]; x <= hi[0]; ++x) {
         for (int y = lo[1]; y <= hi[1]; ++y) {
@@ -198,7 +266,8 @@ HEDDLE_INLINE void gather_chord(const GatherTarget& t, const Chord& chord, Vec3i
                                    static_cast<float>(z - anchor.z) * u.voxel.z};
                 const Cylinder k{chord.start - corner, chord.dir, -chord.before,
                                  chord.length + chord.after, chord.radius};
-                gather_voxel(t, k, chord.length, inv_dir, {x, y, z});
+                gather_voxel(sums, u, k, chord.length, inv_dir,
+                             (x * kBlockVoxels + y) * kBlockVoxels + z);
             }
         }
     }

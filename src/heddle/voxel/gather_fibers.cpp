@@ -35,7 +35,7 @@ struct PieceTarget {
 };
 
 HEDDLE_CLONES void gather_thick(const Chord& chord, Vec3i anchor, const GatherTarget& t) {
-    gather_chord(t, chord, anchor);
+    gather_chord(FiberSums{t.block, t.paint}, t.units, t.size, chord, anchor);
 }
 
 /// Chords that keep within kChordSagitta of a curve with |P''| <= bend, and within a voxel's edge.

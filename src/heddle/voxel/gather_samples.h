@@ -32,7 +32,7 @@ inline void gather_samples(const Chord& chord,
     const auto spacing =
         static_cast<float>(dense ? static_cast<double>(chord.length) / last
                                  : static_cast<double>(chord.length) / (width * all));
-    const std::array<float, 6> moment = moment_of(chord.dir);
+    const DirectionMoment moment(chord.dir);
     const int low = (1 << target.shift) - 1;
     for (double k = first; k < last; k += 1.0) {
         const double f = dense ? (k + 0.5) / last : ((k + 0.5) / all - samples.begin) / width;
@@ -50,8 +50,7 @@ inline void gather_samples(const Chord& chord,
         const int bit =
             ((((sub.x & low) << target.shift) | (sub.y & low)) << target.shift) | (sub.z & low);
         voxel.sub[static_cast<std::size_t>(bit >> 6)] |= std::uint64_t{1} << (bit & 63);
-        pool_moment(target.block, voxel, moment.data(), 2.0f * chord.radius * spacing,
-                    target.paint);
+        pool_moment(target.block, voxel, moment.v, 2.0f * chord.radius * spacing, target.paint);
     }
 }
 
