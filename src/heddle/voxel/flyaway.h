@@ -11,26 +11,34 @@
 namespace heddle {
 
 /// A deviate of standard deviation 1 from one hash: the sum of four uniforms, cut at 2.5.
-[[nodiscard]] inline double deviate(std::uint64_t hash) {
+[[nodiscard]] HEDDLE_HD inline double deviate(std::uint64_t hash) {
     double sum = 0.0;
     for (int i = 0; i < 4; ++i) sum += static_cast<double>((hash >> (16 * i)) & 0xffff) / 65536.0;
-    return std::clamp((sum - 2.0) * 1.7320508075688772, -2.5, 2.5);
+    const double x = (sum - 2.0) * 1.7320508075688772;
+    return x < -2.5 ? -2.5 : x > 2.5 ? 2.5 : x;
+}
+[[nodiscard]] HEDDLE_HD inline double deviate(MeanSd of, std::uint64_t hash) {
+    return static_cast<double>(of.mean) + static_cast<double>(of.sd) * deviate(hash);
 }
 
-/// Loop flyaways: where a fiber's migration is farthest out, it may be pulled out to a loop.
-///                                                                     [Zhao 2016, sec. 5.2]
+/// Loop flyaways: where a fiber's migration is farthest out, it may be pulled out to a loop. Crosses to
+/// the device as it lies.                                                [Zhao 2016, sec. 5.2]
 class LoopModel {
 public:
+    LoopModel() = default;
     explicit LoopModel(const YarnType& yarn)
-        : yarn_(yarn),
+        : reach_(yarn.loop_r1),
           section_(std::sqrt(yarn.ellipse_long * yarn.ellipse_short) *
-                   (yarn.migration ? yarn.migration_max : 1.0f)) {
+                   (yarn.migration ? yarn.migration_max : 1.0f)),
+          frequency_(static_cast<double>(yarn.migration_frequency) /
+                     static_cast<double>(yarn.fiber_pitch)) {
         const double period = static_cast<double>(yarn.fiber_pitch) /
                               std::max(static_cast<double>(yarn.migration_frequency), 1e-6);
         chance_ = static_cast<double>(yarn.loop_density) * period / yarn.fibers_per_ply;
     }
 
-    [[nodiscard]] static std::uint64_t
+    /// @param seed  the run's, plus the number of the set of curves
+    [[nodiscard]] HEDDLE_HD static std::uint64_t
     id(std::uint64_t seed, std::uint64_t curve, std::uint64_t fiber) {
         return hash64(seed + 0x6c6f6f70u, curve, fiber);
     }
@@ -39,14 +47,12 @@ public:
     /// @param id      of the fiber
     /// @param period  number of the migration's period, from half a turn before its outermost point
     /// @param radius  the fiber's, of the unit section
-    [[nodiscard]] double ratio(std::uint64_t id, double period, float radius) const {
+    [[nodiscard]] HEDDLE_HD double ratio(std::uint64_t id, double period, float radius) const {
         const std::uint64_t draw =
             hash64(id, static_cast<std::uint64_t>(static_cast<long long>(period)));
         const float rest = radius * section_;
         if (static_cast<double>(to_unit_float(draw)) >= chance_ || rest <= 0.0f) return 1.0;
-        const double reach = static_cast<double>(yarn_.loop_r1.mean) +
-                             static_cast<double>(yarn_.loop_r1.sd) * deviate(hash64(id, draw, 1));
-        const double ratio = reach / static_cast<double>(rest);
+        const double ratio = deviate(reach_, hash64(id, draw, 1)) / static_cast<double>(rest);
         return ratio > 1.05 ? ratio : 1.0; // no loop where the fiber already runs as far out
     }
 
@@ -54,20 +60,41 @@ public:
     /// 1 + (ratio - 1) cos(pi w), w the distance from the outermost point in periods.
     /// @param ratio  of the phase's period
     /// @param phase  migration phase, turns; whole numbers are outermost points
-    [[nodiscard]] static float factor(double ratio, double phase) {
+    [[nodiscard]] HEDDLE_HD static float factor(double ratio, double phase) {
         const double w = phase - period_of(phase);
         const double bump = 1.0 - 4.0 * w * w; // cos(pi w) to 6 %, and 0 at the period's ends
         return static_cast<float>(1.0 + (ratio - 1.0) * bump);
     }
-    [[nodiscard]] static double period_of(double phase) {
+    /// Migration phase of a fiber at yarn length s.
+    /// @param turns  its phase at the yarn's start
+    [[nodiscard]] HEDDLE_HD double phase_at(double s, float turns) const {
+        return s * frequency_ + static_cast<double>(turns);
+    }
+    [[nodiscard]] HEDDLE_HD static double period_of(double phase) {
         const auto whole = static_cast<double>(static_cast<long long>(phase + 0.5));
         return whole > phase + 0.5 ? whole - 1.0 : whole;
     }
 
 private:
-    const YarnType& yarn_;
-    float section_;
-    double chance_;
+    MeanSd reach_;
+    float section_ = 0.0f;
+    double frequency_ = 0.0; ///< of the migration, turns per model unit
+    double chance_ = 0.0;
+};
+
+/// The period of a fiber's migration that was last looked at, and how far out its loop goes.
+struct LoopMemo {
+    double period = 1e300;
+    double value = 1.0;
+
+    [[nodiscard]] HEDDLE_HD double
+    ratio(const LoopModel& model, std::uint64_t id, double of_period, float radius) {
+        if (period != of_period) {
+            period = of_period;
+            value = model.ratio(id, of_period, radius);
+        }
+        return value;
+    }
 };
 
 /// A hair flyaway in its ply's frame: at parameter q in [t0, t1] it lies at yarn length z0 + ze q,
@@ -77,20 +104,81 @@ struct FlyawayHair {
     double t0, t1;
 };
 
-/// Hair flyaways: one a cell of yarn length 1 / density, drawn by the cell's number. [Zhao 2016, 5.2]
+/// What a yarn type says of its hair flyaways. Crosses to the device as it lies.
+struct HairShape {
+    float density = 0.0f; ///< per ply and model unit
+    float yarn_radius = 1.0f;
+    MeanSd ze, r0, re, pe;
+
+    HairShape() = default;
+    explicit HairShape(const YarnType& yarn)
+        : density(yarn.hair_density),
+          yarn_radius(yarn.model_radius),
+          ze(yarn.hair_ze),
+          r0(yarn.hair_r0),
+          re(yarn.hair_re),
+          pe(yarn.hair_pe) {}
+};
+
+/// Hair flyaways of one yarn: one a cell of its length 1 / density, drawn by the cell's number.
+///                                                                       [Zhao 2016, 5.2]
 class HairModel {
 public:
-    HairModel(const YarnType& yarn, double total, bool closed)
-        : yarn_(yarn), total_(total), closed_(closed) {
-        cells_ = std::max<std::int64_t>(
-            1, static_cast<std::int64_t>(total * static_cast<double>(yarn.hair_density)));
+    /// @param total  yarn length, model units
+    HEDDLE_HD HairModel(const HairShape& shape, double total, bool closed)
+        : shape_(shape), total_(total), closed_(closed) {
+        const auto cells = static_cast<std::int64_t>(total * static_cast<double>(shape.density));
+        cells_ = cells > 1 ? cells : 1;
         cell_ = total / static_cast<double>(cells_);
         // a hair begins up to kRoot of its extent before its emergence
-        reach_ = (1.0 + kRoot) * (std::abs(static_cast<double>(yarn.hair_ze.mean)) +
-                                  2.5 * static_cast<double>(yarn.hair_ze.sd));
+        reach_ = (1.0 + kRoot) * (std::fabs(static_cast<double>(shape.ze.mean)) +
+                                  2.5 * static_cast<double>(shape.ze.sd));
     }
 
-    /// Calls visit(hair) for the part of each hair that lies over yarn length [s0, s1).
+    /// Cells whose hairs may lie over some yarn length; for an open yarn some do not exist.
+    struct Cells {
+        std::int64_t first = 0, last = -1;
+        [[nodiscard]] HEDDLE_HD std::int64_t count() const { return last - first + 1; }
+    };
+    [[nodiscard]] HEDDLE_HD Cells cells(double s0, double s1) const {
+        if (!(cell_ > 0.0) || !(s1 > s0)) return {};
+        return {static_cast<std::int64_t>(std::floor((s0 - reach_) / cell_)),
+                static_cast<std::int64_t>(std::floor((s1 + reach_) / cell_))};
+    }
+
+    /// The part of a cell's hair that lies over yarn length [s0, s1).
+    /// @param seed  the run's, plus the number of the set of curves
+    /// @return      false: none
+    [[nodiscard]] HEDDLE_HD bool hair_of(std::int64_t cell,
+                                         std::uint64_t seed,
+                                         std::uint64_t curve,
+                                         std::uint64_t ply,
+                                         double s0,
+                                         double s1,
+                                         FlyawayHair& hair) const {
+        if (!closed_ && (cell < 0 || cell >= cells_)) return false;
+        const std::int64_t turn = closed_ ? floor_div(cell, cells_) : 0;
+        const auto own = static_cast<std::uint64_t>(cell - turn * cells_);
+        CounterRandom random{.seed = hash64(seed + 0x68616972u, curve, ply), .id = own};
+        hair = place(random, own);
+        hair.z0 += static_cast<double>(turn) * total_;
+        // most hairs near a piece do not reach it: the rest of the draw is not needed
+        const double end = hair.z0 + hair.ze;
+        const double root = hair.z0 - kRoot * hair.ze;
+        const double least = end < root ? end : root;
+        const double most = end < root ? root : end;
+        if (most <= s0 || least >= s1) return false;
+        shape(random, hair);
+        const double qa = (s0 - hair.z0) / hair.ze;
+        const double qb = (s1 - hair.z0) / hair.ze;
+        const double q0 = qa < qb ? qa : qb;
+        const double q1 = qa < qb ? qb : qa;
+        hair.t0 = hair.t0 < q0 ? q0 : hair.t0;
+        hair.t1 = q1 < hair.t1 ? q1 : hair.t1;
+        return hair.t0 < hair.t1;
+    }
+
+    /// Calls visit(hair) for each of a ply's hairs over yarn length [s0, s1), as hair_of().
     template <typename Visit>
     void for_each(std::uint64_t seed,
                   std::uint64_t curve,
@@ -98,60 +186,53 @@ public:
                   double s0,
                   double s1,
                   const Visit& visit) const {
-        if (!(cell_ > 0.0) || !(s1 > s0)) return;
-        const auto first = static_cast<std::int64_t>(std::floor((s0 - reach_) / cell_));
-        const auto last = static_cast<std::int64_t>(std::floor((s1 + reach_) / cell_));
-        for (std::int64_t cell = first; cell <= last; ++cell) {
-            if (!closed_ && (cell < 0 || cell >= cells_)) continue;
-            const std::int64_t turn = closed_ ? floor_div(cell, cells_) : 0;
-            const auto own = static_cast<std::uint64_t>(cell - turn * cells_);
-            CounterRandom random{.seed = hash64(seed + 0x68616972u, curve, ply), .id = own};
-            FlyawayHair hair = place(random, own);
-            hair.z0 += static_cast<double>(turn) * total_;
-            // most hairs near a piece do not reach it: the rest of the draw is not needed
-            const double end = hair.z0 + hair.ze;
-            const double root = hair.z0 - kRoot * hair.ze;
-            if (std::max(end, root) <= s0 || std::min(end, root) >= s1) continue;
-            shape(random, hair);
-            const double qa = (s0 - hair.z0) / hair.ze;
-            const double qb = (s1 - hair.z0) / hair.ze;
-            hair.t0 = std::max(hair.t0, std::min(qa, qb));
-            hair.t1 = std::min(hair.t1, std::max(qa, qb));
-            if (hair.t0 < hair.t1) visit(hair);
+        const Cells all = cells(s0, s1);
+        for (std::int64_t cell = all.first; cell <= all.last; ++cell) {
+            FlyawayHair hair;
+            if (hair_of(cell, seed, curve, ply, s0, s1, hair)) visit(hair);
         }
     }
 
 private:
     static constexpr double kRoot = 2.0;
 
-    [[nodiscard]] double normal(CounterRandom& random, MeanSd v) const {
-        return static_cast<double>(v.mean) + static_cast<double>(v.sd) * deviate(random.next());
-    }
-    [[nodiscard]] FlyawayHair place(CounterRandom& random, std::uint64_t cell) const {
+    [[nodiscard]] HEDDLE_HD FlyawayHair place(CounterRandom& random, std::uint64_t cell) const {
         FlyawayHair hair{};
         hair.z0 = (static_cast<double>(cell) + static_cast<double>(random.uniform())) * cell_;
-        hair.ze = normal(random, yarn_.hair_ze);
+        hair.ze = deviate(shape_.ze, random.next());
         // a hair straight out still passes through some yarn length: it has one place on the yarn
-        const double least = 1e-3 * static_cast<double>(yarn_.model_radius);
-        if (std::abs(hair.ze) < least) hair.ze = hair.ze < 0.0 ? -least : least;
+        const double least = 1e-3 * static_cast<double>(shape_.yarn_radius);
+        if (std::fabs(hair.ze) < least) hair.ze = hair.ze < 0.0 ? -least : least;
         return hair;
     }
-    void shape(CounterRandom& random, FlyawayHair& hair) const {
-        hair.r0 = std::max(0.0, normal(random, yarn_.hair_r0));
-        hair.re =
-            std::max(0.1 * static_cast<double>(yarn_.hair_re.mean), normal(random, yarn_.hair_re));
+    HEDDLE_HD void shape(CounterRandom& random, FlyawayHair& hair) const {
+        const double r0 = deviate(shape_.r0, random.next());
+        hair.r0 = r0 > 0.0 ? r0 : 0.0;
+        const double re = deviate(shape_.re, random.next());
+        const double least = 0.1 * static_cast<double>(shape_.re.mean);
+        hair.re = least < re ? re : least;
         hair.p0 = 6.283185307179586 * static_cast<double>(random.uniform());
-        hair.pe = normal(random, yarn_.hair_pe);
-        hair.t0 = hair.re > 0.0 ? -std::min(kRoot, hair.r0 / hair.re) : 0.0;
+        hair.pe = deviate(shape_.pe, random.next());
+        const double before = hair.re > 0.0 ? hair.r0 / hair.re : 0.0;
+        hair.t0 = -(before < kRoot ? before : kRoot);
         hair.t1 = 1.0;
     }
 
-    const YarnType& yarn_;
+    HairShape shape_;
     double total_;
     bool closed_;
     std::int64_t cells_ = 1;
     double cell_ = 0.0;
     double reach_ = 0.0;
 };
+
+/// Chords of a hair flyaway's part, of about 4 units each.
+/// @param scale  units per model unit at the piece's start
+[[nodiscard]] HEDDLE_HD inline int hair_chord_count(const FlyawayHair& hair, double scale) {
+    const double size = scale * (std::fabs(hair.ze) + std::fabs(hair.re) +
+                                 std::fabs(hair.pe) * (hair.r0 + std::fabs(hair.re)));
+    const double count = std::ceil(size * (hair.t1 - hair.t0) / 4.0);
+    return count < 1.0 ? 1 : count > 64.0 ? 64 : static_cast<int>(count);
+}
 
 } // namespace heddle

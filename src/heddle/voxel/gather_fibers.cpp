@@ -38,20 +38,7 @@ HEDDLE_CLONES void gather_thick(const Chord& chord, Vec3i anchor, const GatherTa
     gather_chord(FiberSums{t.block, t.paint}, t.units, t.size, chord, anchor);
 }
 
-/// Chords that keep within kChordSagitta of a curve with |P''| <= bend, and within a voxel's edge.
-int chord_count(double bend, double length, const LatticeUnits& u) {
-    const double by_bend = std::sqrt(bend / (8.0 * kChordSagitta));
-    const double by_length = length / std::max(2.0, static_cast<double>(u.n));
-    return static_cast<int>(std::clamp(std::ceil(std::max(by_bend, by_length)), 1.0, 4096.0));
-}
-
 } // namespace
-
-/// The period of a fiber's migration that was last looked at, and how far out its loop goes.
-struct LoopMemo {
-    double period = 1e300;
-    double ratio = 1.0;
-};
 
 struct FiberGatherer::State {
     const FiberSource& source;
@@ -214,38 +201,14 @@ void FiberGatherer::State::gather_plain(const FiberPiece& piece,
         const std::size_t skip = set.basis == Basis::Linear || set.is_closed(piece.curve) ? 0 : 1;
         target.block.paint.color = set.color[set.first[piece.curve] + piece.span + skip];
     }
+    const bool linear = set.basis == Basis::Linear;
+    PlainEnds ends{.linear = linear};
+    if (linear) {
+        ends.turn_before = joint_bend(set, piece, false);
+        ends.turn_after = joint_bend(set, piece, true);
+    }
     chords.clear();
-    // moved outwards as in make_chords
-    const float outwards = 1.0f / (24.0f * static_cast<float>(count) * static_cast<float>(count));
-    const auto sample = [&](float t) {
-        return cubic.at(t) - outwards * cubic.second_derivative(t);
-    };
-    Vec3f from = sample(0.0f);
-    for (int j = 0; j < count; ++j) {
-        const float t1 = static_cast<float>(j + 1) / static_cast<float>(count);
-        const float tm = (static_cast<float>(j) + 0.5f) / static_cast<float>(count);
-        const Vec3f to = sample(t1);
-        const Vec3f d = to - from;
-        const float len = length(d);
-        if (len > 0.0f) {
-            const float radius = course.scale0 * (1.0f - tm) + course.scale1 * tm;
-            chords.push_back({from, d * (1.0f / len), len, 0.0f, 0.0f, std::max(radius, 1e-6f)});
-            from = to;
-        }
-    }
-    for (std::size_t j = 1; j < chords.size(); ++j) {
-        const float bend = 0.5f * length(chords[j].dir - chords[j - 1].dir);
-        chords[j - 1].after = bend * chords[j - 1].radius;
-        chords[j].before = bend * chords[j].radius;
-    }
-    if (!chords.empty()) {
-        const auto end_bend = [&](const Chord& chord, bool end) {
-            if (set.basis == Basis::Linear) return joint_bend(set, piece, end);
-            return length(chord.dir - normalize(cubic.derivative(end ? 1.0f : 0.0f), chord.dir));
-        };
-        chords.front().before = chords.front().radius * end_bend(chords.front(), false);
-        chords.back().after = chords.back().radius * end_bend(chords.back(), true);
-    }
+    for_each_plain_chord(cubic, course, ends, count, [&](const Chord& c) { chords.push_back(c); });
     gather_run(target);
 }
 
@@ -261,18 +224,8 @@ void FiberGatherer::State::gather_yarn(const FiberPiece& piece,
     }
     const YarnCourse course = source.course(piece);
     const PlySection section = section_of(yarn);
-    // |P''| of a helix of radius r that turns by w over the piece is r w^2
-    const double turn0 = 6.2831853 * std::abs(course.turns_per_length[0]) * course.length;
-    const double turn1 = 6.2831853 * std::abs(course.turns_per_length[1]) * course.length;
-    const double turn2 = 6.2831853 * std::abs(course.turns_per_length[2]) * course.length;
-    const double scale = static_cast<double>(std::max(course.scale0, course.scale1));
-    const double axis = static_cast<double>(std::max(section.short_axis, section.long_axis));
-    const double all = turn0 + turn1 + (section.amplitude > 0.0f ? turn2 : 0.0);
-    const double bend =
-        static_cast<double>(cubic.bend()) +
-        scale * (static_cast<double>(section.offset) * turn0 * turn0 + axis * all * all);
-    const int count =
-        chord_count(bend, piece.cubic.polygon_length() / source.units().unit, source.units());
+    const int count = yarn_chord_count(
+        cubic, course, section, piece.cubic.polygon_length() / source.units().unit, source.units());
     const std::size_t plies = table.first_of_ply.size() - 1;
     frames.resize(plies * FiberTile::kSamples);
     for (int j0 = 0; j0 < count; j0 += FiberTile::kChords) {
@@ -284,7 +237,7 @@ void FiberGatherer::State::gather_yarn(const FiberPiece& piece,
             tile.radius[j] = table.fiber_radius * frame.scale;
             for (std::size_t ply = 0; ply < plies; ++ply) {
                 frames[ply * FiberTile::kSamples + static_cast<std::size_t>(j)] =
-                    frame.of_ply(table, ply);
+                    frame.of_ply(table.ply_cos[ply], table.ply_sin[ply]);
             }
         }
         const double t0 = static_cast<double>(j0 - 1) / count;
@@ -329,24 +282,18 @@ void FiberGatherer::State::set_loops(const YarnType& yarn,
                                      std::size_t first,
                                      double s0,
                                      double s1) {
-    const double frequency =
-        static_cast<double>(yarn.migration_frequency) / static_cast<double>(yarn.fiber_pitch);
     const LoopModel model(yarn);
     const int samples = tile.chords + 3;
     const auto fibers = static_cast<std::size_t>(tile.fibers);
     loops.resize(table.size());
     for (std::size_t f = 0; f < fibers; ++f) {
         const std::size_t i = first + f;
-        const double turns = static_cast<double>(table.migration_turns[i]);
-        const double p0 = LoopModel::period_of(s0 * frequency + turns);
-        const double p1 = LoopModel::period_of(s1 * frequency + turns);
-        LoopMemo& memo = loops[i];
+        const float turns = table.migration_turns[i];
+        const double p0 = LoopModel::period_of(model.phase_at(s0, turns));
+        const double p1 = LoopModel::period_of(model.phase_at(s1, turns));
+        const std::uint64_t id = LoopModel::id(source.seed() + table_set, table_curve, i);
         const auto ratio = [&](double period) {
-            if (memo.period != period) {
-                const std::uint64_t id = LoopModel::id(source.seed() + table_set, table_curve, i);
-                memo = {period, model.ratio(id, period, table.radius[i])};
-            }
-            return memo.ratio;
+            return loops[i].ratio(model, id, period, table.radius[i]);
         };
         bool any = false;
         for (double p = std::min(p0, p1); p <= std::max(p0, p1); p += 1.0) {
@@ -358,7 +305,7 @@ void FiberGatherer::State::set_loops(const YarnType& yarn,
             tile.loops = true;
         }
         for (int j = 0; j < samples; ++j) {
-            const double phase = (s0 + (s1 - s0) * j / (samples - 1)) * frequency + turns;
+            const double phase = model.phase_at(s0 + (s1 - s0) * j / (samples - 1), turns);
             tile.loop[j][f] = LoopModel::factor(ratio(LoopModel::period_of(phase)), phase);
         }
     }
@@ -368,37 +315,22 @@ void FiberGatherer::State::gather_hairs(const YarnType& yarn,
                                         const LocalCubic& cubic,
                                         const YarnCourse& course,
                                         PieceTarget& target) {
-    const HairModel model(yarn, course.total, course.closed);
+    const HairModel model(HairShape(yarn), course.total, course.closed);
+    const std::uint64_t seed = source.seed() + table_set;
     for (std::size_t ply = 0; ply + 1 < table.first_of_ply.size(); ++ply) {
-        model.for_each(
-            source.seed() + table_set, table_curve, ply, course.start, course.start + course.length,
-            [&](const FlyawayHair& hair) {
-                const double dt = hair.t1 - hair.t0;
-                const double size = static_cast<double>(course.scale0) *
-                                    (std::abs(hair.ze) + std::abs(hair.re) +
-                                     std::abs(hair.pe) * (hair.r0 + std::abs(hair.re)));
-                const int count = std::clamp(static_cast<int>(std::ceil(size * dt / 4.0)), 1, 64);
-                chords.clear();
-                Vec3f from;
-                for (int j = 0; j <= count; ++j) {
-                    const double q = hair.t0 + dt * j / count;
-                    const double s = hair.z0 + hair.ze * q;
-                    const auto t = static_cast<float>((s - course.start) / course.length);
-                    const YarnFrame yarn_at(cubic, course, t);
-                    const PlyFrame at = yarn_at.of_ply(table, ply);
-                    const SinCos turn = sincos_turns((hair.p0 + hair.pe * q) / 6.283185307179586);
-                    const auto r = static_cast<float>(hair.r0 + hair.re * q);
-                    const Vec3f to =
-                        at.center + (yarn.ply_offset + r * turn.cos) * at.u + (r * turn.sin) * at.v;
-                    const float len = length(to - from);
-                    if (j > 0 && len > 0.0f) {
-                        chords.push_back({from, (to - from) * (1.0f / len), len, 0.0f, 0.0f,
-                                          table.fiber_radius * yarn_at.scale});
-                    }
-                    from = to;
-                }
-                gather_run(target);
-            });
+        model.for_each(seed, table_curve, ply, course.start, course.start + course.length,
+                       [&](const FlyawayHair& hair) {
+                           chords.clear();
+                           HairPath{cubic,
+                                    course,
+                                    hair,
+                                    table.ply_cos[ply],
+                                    table.ply_sin[ply],
+                                    yarn.ply_offset,
+                                    table.fiber_radius}
+                               .for_each_chord([&](const Chord& c) { chords.push_back(c); });
+                           gather_run(target);
+                       });
     }
 }
 

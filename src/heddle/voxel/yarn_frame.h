@@ -57,9 +57,10 @@ struct YarnFrame {
         fiber = sincos_turns(course.turns_per_length[1] * s);
         migration = sincos_turns(course.turns_per_length[2] * s);
     }
-    [[nodiscard]] PlyFrame of_ply(const FiberTable& table, std::size_t i) const {
-        const float c = (table.ply_cos[i] * ply.cos - table.ply_sin[i] * ply.sin) * scale;
-        const float sn = (table.ply_sin[i] * ply.cos + table.ply_cos[i] * ply.sin) * scale;
+    /// @param base_cos, base_sin  base angle of the ply
+    [[nodiscard]] PlyFrame of_ply(float base_cos, float base_sin) const {
+        const float c = (base_cos * ply.cos - base_sin * ply.sin) * scale;
+        const float sn = (base_sin * ply.cos + base_cos * ply.sin) * scale;
         return {center, c * normal + sn * binormal, c * binormal - sn * normal, fiber, migration};
     }
 };
