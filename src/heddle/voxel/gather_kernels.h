@@ -1,5 +1,6 @@
 #pragma once
 
+#include <heddle/voxel/expand_op.h>
 #include <heddle/voxel/fiber_tile.h>
 #include <heddle/voxel/gather_chord.h>
 
