@@ -2,28 +2,14 @@
 
 #include <heddle/base/parallel.h>
 #include <heddle/voxel/block_keeper.h>
+#include <heddle/voxel/block_order.h>
 #include <heddle/voxel/block_worker.h>
-#include <heddle/voxel/z_order.h>
 
 #include <algorithm>
 #include <numeric>
 
 namespace heddle {
 namespace {
-
-/// The occupied blocks in Z-order: what is next to each other is done soon after each other.
-struct BlockOrder {
-    std::vector<std::uint32_t> block; ///< numbers
-    std::vector<Vec3i> index;
-
-    explicit BlockOrder(const Bins& bins) : block(bins.blocks()) {
-        const BlockRange& range = bins.range();
-        std::sort(block.begin(), block.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return z_order_less(range.index(a), range.index(b));
-        });
-        for (const std::uint32_t b : block) index.push_back(range.index(b));
-    }
-};
 
 /// The numbers of some blocks ascending, as Bins::fill wants them, and where each went.
 struct SortedBlocks {
@@ -58,7 +44,7 @@ std::unique_ptr<VoxelSource> voxelize(const Geometry& geometry,
                                       BlockVisitor* visitor) {
     VoxelizeContext context(geometry, options, plan.lattice, plan.voxel_lo, plan.voxel_hi);
     const Bins bins(context.fibers, context.triangles, context.range, progress);
-    const BlockOrder order(bins);
+    const BlockOrder order(bins.range(), bins.blocks());
     const std::span<const std::uint32_t> blocks(order.block);
     BlockKeeper keeper(context.info(), blocks.size(), plan.spool, options.spool_dir);
     if (visitor != nullptr) {

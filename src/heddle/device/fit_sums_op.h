@@ -1,0 +1,155 @@
+#pragma once
+
+#include <heddle/base/bits.h>
+#include <heddle/device/block_cell.h>
+#include <heddle/device/dense_sums.h>
+#include <heddle/device/level_arrays.h>
+#include <heddle/voxel/lobe_pool.h>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace heddle {
+
+/// How a batch's sums become voxels of level 0.
+struct FitSettings {
+    int subvoxels = 8;
+    int max_lobes = 3;
+    std::uint64_t normals[4]{}; ///< bit per material: its lobes are of normals
+};
+
+/// One voxel's place in a batch's sums.
+struct SumsPlace {
+    std::uint32_t slot = 0; ///< of the block
+    int cell = -1;          ///< relative to the block's lo; < 0: outside of what it has
+
+    /// @param i  block x kBlockCells + place in Z-order
+    HEDDLE_HD SumsPlace(const BatchBlock* blocks, std::size_t i)
+        : slot(static_cast<std::uint32_t>(i / kBlockCells)) {
+        const BatchBlock& block = blocks[slot];
+        const Vec3i at = place_of(static_cast<std::uint32_t>(i % kBlockCells)) +
+                         block.index * kBlockVoxels - block.lo;
+        const bool inside = at.x >= 0 && at.x < block.size.x && at.y >= 0 && at.y < block.size.y &&
+                            at.z >= 0 && at.z < block.size.z;
+        if (inside) cell = (at.x * kBlockVoxels + at.y) * kBlockVoxels + at.z;
+    }
+};
+
+/// Counts what voxel i of a batch will have: 0 or 1 voxels, and its lobes.
+struct CountVoxelOp {
+    DenseSums sums;
+    int max_lobes;
+    std::uint8_t* voxels;
+    std::uint8_t* lobes;
+
+    HEDDLE_HD void operator()(std::size_t i) const {
+        const SumsPlace place(sums.blocks, i);
+        int count = 0;
+        if (place.cell >= 0) {
+            const BatchBlock& block = sums.blocks[place.slot];
+            for (std::uint32_t p = 0; p < block.planes && count < max_lobes; ++p) {
+                const std::size_t at = std::size_t{block.first_plane + p} * kBlockCells +
+                                       static_cast<std::size_t>(place.cell);
+                count += sums.lobes[at * DenseLobe::kLobeWords + 6] != 0 ? 1 : 0;
+            }
+        }
+        voxels[i] = count > 0 ? 1 : 0;
+        lobes[i] = static_cast<std::uint8_t>(count);
+    }
+};
+
+/// Writes voxel i of a batch, where it is one, to its place in the level's arrays.
+/// @tparam kPool  false: no block has more than one plane, and nothing is to be merged
+template <bool kPool>
+struct FitVoxelOp {
+    DenseSums sums;
+    FitSettings settings;
+    std::size_t cells;   ///< of the batch; item `cells` writes where the last voxel's lobes end
+    std::uint32_t count; ///< of voxels
+    const std::uint32_t* first_voxel; ///< per i, and the end
+    const std::uint32_t* first_lobe;  ///< per i, and the end
+    std::uint64_t* key;
+    std::uint32_t* hits;
+    std::uint32_t* lobe_begin;
+    std::uint32_t* order;
+    std::uint64_t* columns;
+    DirectionSums* lobes;
+    MapSums* maps; ///< null without
+
+    HEDDLE_HD void operator()(std::size_t i) const {
+        if (i == cells) {
+            lobe_begin[count] = first_lobe[cells];
+            return;
+        }
+        const std::uint32_t v = first_voxel[i];
+        if (first_voxel[i + 1] == v) return;
+        const SumsPlace place(sums.blocks, i);
+        const auto cell = static_cast<std::size_t>(place.cell);
+        const std::uint64_t* masks =
+            sums.masks + (std::size_t{place.slot} * kBlockCells + cell) * DenseLobe::kMaskWords;
+        key[v] = i;
+        for (int axis = 0; axis < 3; ++axis) columns[std::size_t{3} * v + axis] = masks[axis];
+        int count = 0;
+        for (int w = 0; w < 8; ++w) count += count_bits(masks[3 + w]);
+        hits[v] = static_cast<std::uint32_t>(count);
+        lobe_begin[v] = first_lobe[i];
+        order[v] = write_lobes(sums.blocks[place.slot], cell, first_lobe[i]);
+    }
+
+private:
+    HEDDLE_HD DirectionSums lobe_at(std::uint32_t material, std::size_t at) const {
+        DirectionSums out;
+        const std::uint64_t* words = sums.lobes + at * DenseLobe::kLobeWords;
+        for (int k = 0; k < 6; ++k) out.moment[k] = static_cast<std::int64_t>(words[k]);
+        out.weight = static_cast<std::int64_t>(words[6]);
+        out.material = material;
+        out.normals = (settings.normals[material / 64] >> (material % 64) & 1u) != 0;
+        return out;
+    }
+    [[nodiscard]] HEDDLE_HD const MapSums* maps_at(std::size_t at) const {
+        if (maps == nullptr) return nullptr;
+        return reinterpret_cast<const MapSums*>(sums.maps + at * DenseLobe::kMapWords);
+    }
+
+    /// @return  VoxelBlock::merge_order
+    HEDDLE_HD std::uint32_t
+    write_lobes(const BatchBlock& block, std::size_t cell, std::uint32_t to) const {
+        if constexpr (kPool) {
+            LobePool pool;
+            pool_lobes(block, cell, pool);
+            const bool with_maps = maps != nullptr;
+            const std::uint32_t result = reduce(pool, settings.max_lobes, with_maps, ByMoments{});
+            for (int k = 0; k < pool.count; ++k) {
+                const std::size_t lobe = to + static_cast<std::size_t>(k);
+                lobes[lobe] = pool.sums[static_cast<std::size_t>(k)];
+                if (with_maps) maps[lobe] = pool.maps[static_cast<std::size_t>(k)];
+            }
+            return result;
+        } else {
+            const std::size_t at = std::size_t{block.first_plane} * kBlockCells + cell;
+            lobes[to] = lobe_at(lowest_material(block), at);
+            if (maps != nullptr) maps[to] = *maps_at(at);
+            return 0;
+        }
+    }
+
+    HEDDLE_HD static std::uint32_t lowest_material(const BatchBlock& block) {
+        std::uint32_t w = 0;
+        while (block.materials[w] == 0) ++w;
+        const std::uint64_t bits = block.materials[w];
+        return w * 64 + static_cast<std::uint32_t>(count_bits((bits & (~bits + 1)) - 1));
+    }
+
+    HEDDLE_HD void pool_lobes(const BatchBlock& block, std::size_t cell, LobePool& pool) const {
+        std::uint32_t plane = block.first_plane;
+        for (std::uint32_t material = 0; material < 256; ++material) {
+            if ((block.materials[material / 64] >> (material % 64) & 1u) == 0) continue;
+            const std::size_t at = std::size_t{plane++} * kBlockCells + cell;
+            if (sums.lobes[at * DenseLobe::kLobeWords + 6] == 0) continue;
+            if (pool.count == kMaxPool) reduce(pool, kMaxLobes, maps != nullptr, ByMoments{});
+            pool.add(lobe_at(material, at), maps_at(at));
+        }
+    }
+};
+
+} // namespace heddle
