@@ -15,6 +15,20 @@ namespace heddle {
 /// is right).                                                              [bench/results/exact.md]
 constexpr double kChordSagitta = 1.0 / 2.0;
 
+/// @param yarn  a YarnType, or what crosses of one
+template <typename Yarn>
+[[nodiscard]] HEDDLE_HD inline PlySection section_of(const Yarn& yarn) {
+    if (yarn.model == YarnModel::Slice) {
+        return {0.0f, yarn.model_radius, yarn.model_radius, 1.0f, 0.0f};
+    }
+    PlySection s{yarn.ply_offset, yarn.ellipse_short, yarn.ellipse_long, 1.0f, 0.0f};
+    if (yarn.migration) {
+        s.mean = 0.5f * (yarn.migration_max + yarn.migration_min);
+        s.amplitude = 0.5f * (yarn.migration_max - yarn.migration_min);
+    }
+    return s;
+}
+
 /// Chords that keep within kChordSagitta of a curve with |P''| <= bend, and within a voxel's edge.
 /// @param bend    units
 /// @param length  at least the curve's, units

@@ -21,19 +21,21 @@ namespace heddle {
     return static_cast<double>(of.mean) + static_cast<double>(of.sd) * deviate(hash);
 }
 
-/// Loop flyaways: where a fiber's migration is farthest out, it may be pulled out to a loop. Crosses to
-/// the device as it lies.                                                [Zhao 2016, sec. 5.2]
+/// Loop flyaways: where a fiber's migration is farthest out, it may be pulled out to a loop.
+///                                                [Zhao 2016, sec. 5.2]
 class LoopModel {
 public:
-    LoopModel() = default;
-    explicit LoopModel(const YarnType& yarn)
+    /// @param yarn  a YarnType, or what crosses of one
+    template <typename Yarn>
+    HEDDLE_HD explicit LoopModel(const Yarn& yarn)
         : reach_(yarn.loop_r1),
           section_(std::sqrt(yarn.ellipse_long * yarn.ellipse_short) *
                    (yarn.migration ? yarn.migration_max : 1.0f)),
           frequency_(static_cast<double>(yarn.migration_frequency) /
                      static_cast<double>(yarn.fiber_pitch)) {
-        const double period = static_cast<double>(yarn.fiber_pitch) /
-                              std::max(static_cast<double>(yarn.migration_frequency), 1e-6);
+        const auto frequency = static_cast<double>(yarn.migration_frequency);
+        const double period =
+            static_cast<double>(yarn.fiber_pitch) / (frequency < 1e-6 ? 1e-6 : frequency);
         chance_ = static_cast<double>(yarn.loop_density) * period / yarn.fibers_per_ply;
     }
 
@@ -104,14 +106,14 @@ struct FlyawayHair {
     double t0, t1;
 };
 
-/// What a yarn type says of its hair flyaways. Crosses to the device as it lies.
+/// What a yarn type says of its hair flyaways.
 struct HairShape {
     float density = 0.0f; ///< per ply and model unit
     float yarn_radius = 1.0f;
     MeanSd ze, r0, re, pe;
 
-    HairShape() = default;
-    explicit HairShape(const YarnType& yarn)
+    template <typename Yarn>
+    HEDDLE_HD explicit HairShape(const Yarn& yarn)
         : density(yarn.hair_density),
           yarn_radius(yarn.model_radius),
           ze(yarn.hair_ze),

@@ -15,18 +15,6 @@
 namespace heddle {
 namespace {
 
-PlySection section_of(const YarnType& yarn) {
-    if (yarn.model == YarnModel::Slice) {
-        return {0.0f, yarn.model_radius, yarn.model_radius, 1.0f, 0.0f};
-    }
-    PlySection s{yarn.ply_offset, yarn.ellipse_short, yarn.ellipse_long, 1.0f, 0.0f};
-    if (yarn.migration) {
-        s.mean = 0.5f * (yarn.migration_max + yarn.migration_min);
-        s.amplitude = 0.5f * (yarn.migration_max - yarn.migration_min);
-    }
-    return s;
-}
-
 /// Where the chords of a piece go.
 struct PieceTarget {
     GatherTarget block;
