@@ -1,0 +1,85 @@
+#pragma once
+
+#include <heddle/device/dense_sums.h>
+#include <heddle/gpu/atomic.h>
+#include <heddle/voxel/fiber_view.h>
+#include <heddle/voxel/primitive_blocks.h>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace heddle {
+
+/// What primitives are gathered by, each its own way.
+enum class PrimitiveKind : std::uint8_t { Plain, Yarn, Triangle };
+constexpr int kPrimitiveKinds = 3;
+
+/// A primitive and a block of the batch that it touches.
+struct BlockPair {
+    std::uint64_t primitive = 0; ///< piece or triangle
+    std::uint32_t slot = 0;      ///< of the block in the batch
+    std::uint32_t spare = 0;
+};
+static_assert(sizeof(BlockPair) == 16);
+
+/// Counts the blocks of the range that hold primitives: how many of a kind each.
+struct CountPairs {
+    std::uint32_t* counts[kPrimitiveKinds]; ///< per block of the range; null: no such primitives
+
+    HEDDLE_HD void
+    add(PrimitiveKind kind, std::uint64_t, std::uint64_t block, std::uint32_t) const {
+        gpu::atomic_add(counts[static_cast<int>(kind)] + block, 1);
+    }
+};
+
+/// Lists the pairs of a batch's blocks, each block's together, in any order.
+struct ListPairs {
+    const std::uint32_t* slot_of_block; ///< per block of the range; kNoSlot: of another batch
+    BatchBlock* blocks;                 ///< gets the materials
+    std::uint64_t* next[kPrimitiveKinds]; ///< per slot: where its next pair goes
+    BlockPair* pairs[kPrimitiveKinds];
+
+    static constexpr std::uint32_t kNoSlot = 0xffffffffu;
+
+    HEDDLE_HD void add(PrimitiveKind kind,
+                       std::uint64_t primitive,
+                       std::uint64_t block,
+                       std::uint32_t material) const {
+        const std::uint32_t slot = slot_of_block[block];
+        if (slot == kNoSlot) return;
+        const auto k = static_cast<int>(kind);
+        const std::uint64_t at = gpu::atomic_add(next[k] + slot, 1);
+        pairs[k][at] = {primitive, slot, 0};
+        gpu::atomic_or(&blocks[slot].materials[material / 64],
+                       std::uint64_t{1} << (material % 64));
+    }
+};
+
+/// Walks the pieces of a span: to.add() for each with each block that it may touch.
+template <typename To>
+struct WalkSpanOp {
+    FiberView fibers;
+    BlockLattice range;
+    To to;
+
+    HEDDLE_HD void operator()(std::size_t span) const {
+        const FiberPiece whole = fibers.whole_span(span);
+        const CurveSetView& set = fibers.sets[whole.set];
+        const PrimitiveKind kind =
+            set.length != nullptr ? PrimitiveKind::Yarn : PrimitiveKind::Plain;
+        for (std::uint32_t part = 0; part < whole.parts; ++part) {
+            const FiberPiece piece = part_of(whole, part);
+            const BlockBox box = range.blocks_of(piece_bounds(set, piece));
+            for (int x = box.lo.x; x <= box.hi.x; ++x) {
+                for (int y = box.lo.y; y <= box.hi.y; ++y) {
+                    for (int z = box.lo.z; z <= box.hi.z; ++z) {
+                        to.add(kind, std::uint64_t{span} << 16 | part, range.number({x, y, z}),
+                               set.material);
+                    }
+                }
+            }
+        }
+    }
+};
+
+} // namespace heddle

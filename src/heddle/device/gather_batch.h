@@ -1,0 +1,147 @@
+#pragma once
+
+#include <heddle/device/fit_sums.h>
+#include <heddle/device/gather_fibers_op.h>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace heddle {
+
+/// A geometry where executors work, and the lattice that it is voxelized on: read by all of them.
+struct DeviceScene {
+    FiberView fibers;
+    FiberTablesView tables;
+    std::uint64_t triangle_count = 0;
+    BlockLattice range;
+    FitSettings fit;
+    bool with_maps = false; ///< map sums are kept
+};
+
+/// Some blocks that are done at once: what the host knows of them.
+struct BlockBatch {
+    std::vector<std::uint32_t> numbers; ///< of the blocks in the range
+    std::vector<BatchBlock> blocks;
+    std::array<std::vector<std::uint64_t>, kPrimitiveKinds>
+        first_pair; ///< per kind, per block and the end
+};
+
+/// The primitives of a batch's blocks, kind by kind.
+struct BatchPairs {
+    std::array<gpu::Array<BlockPair>, kPrimitiveKinds> of;
+};
+
+/// Writes where blocks of the range stand in a batch.
+struct SetSlotsOp {
+    const std::uint32_t* numbers;
+    std::uint32_t* slot_of_block;
+    bool there; ///< false: takes them out again
+    HEDDLE_HD void operator()(std::size_t slot) const {
+        slot_of_block[numbers[slot]] =
+            there ? static_cast<std::uint32_t>(slot) : ListPairs::kNoSlot;
+    }
+};
+
+/// Lists the primitives of a batch's blocks, and gives each block its planes: one a material.
+/// @param slot_of_block  per block of the range, all kNoSlot; is left so
+template <typename Exec>
+[[nodiscard]] BatchPairs list_pairs(Exec& exec,
+                                    const DeviceScene& scene,
+                                    BlockBatch& batch,
+                                    std::uint32_t* slot_of_block) {
+    exec.set_stage("bin");
+    const std::size_t n = batch.blocks.size();
+    const auto numbers = exec.make_from(std::span<const std::uint32_t>(batch.numbers));
+    const auto blocks = exec.make_from(std::span<const BatchBlock>(batch.blocks));
+    BatchPairs pairs;
+    std::array<gpu::Array<std::uint64_t>, kPrimitiveKinds> next;
+    ListPairs list{slot_of_block, blocks.data(), {}, {}};
+    for (std::size_t k = 0; k < kPrimitiveKinds; ++k) {
+        const std::span<const std::uint64_t> first(batch.first_pair[k]);
+        next[k] = exec.make_from(first);
+        pairs.of[k] = exec.template make<BlockPair>(first[n]);
+        list.next[k] = next[k].data();
+        list.pairs[k] = pairs.of[k].data();
+    }
+    exec.for_each(n, SetSlotsOp{numbers.data(), slot_of_block, true});
+    exec.for_each(scene.fibers.span_count,
+                  WalkSpanOp<ListPairs>{scene.fibers, scene.range, list});
+    exec.for_each(n, SetSlotsOp{numbers.data(), slot_of_block, false});
+    exec.download(std::span(batch.blocks), blocks.data());
+    std::uint32_t planes = 0;
+    for (BatchBlock& block : batch.blocks) {
+        block.first_plane = planes;
+        for (const std::uint64_t bits : block.materials) {
+            block.planes += static_cast<std::uint32_t>(count_bits(bits));
+        }
+        planes += block.planes;
+    }
+    return pairs;
+}
+
+/// Gathers the single round curves of a batch.
+template <typename Exec>
+void gather_plain(Exec& exec, const FiberBatch& batch, const gpu::Array<BlockPair>& pairs) {
+    exec.set_stage("gather of curves");
+    exec.for_each(pairs.size(), GatherPlainOp{batch, pairs.data()});
+}
+
+/// Gathers the yarns of a batch.
+template <typename Exec>
+void gather_yarns(Exec& exec, const FiberBatch& batch, const gpu::Array<BlockPair>& pairs) {
+    const std::size_t n = pairs.size();
+    if (n == 0) return;
+    exec.set_stage("gather of yarns");
+    const auto yarns = exec.template make<YarnPair>(n);
+    const auto count = [&] { return exec.template make<std::uint32_t>(n); };
+    const auto first = [&] { return exec.template make<std::uint64_t>(n + 1); };
+    const auto frames = count(), runs = count(), hairs = count();
+    const auto first_frame = first(), first_run = first(), first_hair = first();
+    exec.for_each(n, PrepareYarnOp{batch, pairs.data(), yarns.data(), frames.data(), runs.data(),
+                                   hairs.data()});
+    exec.offsets(frames.data(), first_frame.data(), n);
+    exec.offsets(runs.data(), first_run.data(), n);
+    exec.offsets(hairs.data(), first_hair.data(), n);
+    const auto frame_at = exec.template make<YarnFrame>(exec.read(first_frame.data() + n));
+    exec.for_each(frame_at.size(),
+                  FrameYarnOp{yarns.data(), first_frame.data(), n, frame_at.data()});
+    exec.for_each(exec.read(first_run.data() + n),
+                  GatherYarnOp{batch, yarns.data(), first_run.data(), first_frame.data(), n,
+                               frame_at.data()});
+    exec.for_each(exec.read(first_hair.data() + n),
+                  GatherHairOp{batch, yarns.data(), first_hair.data(), n});
+}
+
+/// Level 0 of a batch of blocks: from primitives to lobes.
+/// @throws Error  OutOfMemory, Device
+template <typename Exec>
+[[nodiscard]] LevelArrays gather_batch(Exec& exec,
+                                       const DeviceScene& scene,
+                                       BlockBatch& batch,
+                                       std::uint32_t* slot_of_block) {
+    const BatchPairs pairs = list_pairs(exec, scene, batch, slot_of_block);
+    exec.set_stage("sums");
+    const std::size_t n = batch.blocks.size();
+    std::size_t planes = 0;
+    bool merging = scene.fit.max_lobes == 1;
+    for (const BatchBlock& block : batch.blocks) {
+        planes += block.planes;
+        merging = merging || block.planes > 1;
+    }
+    const auto blocks = exec.make_from(std::span<const BatchBlock>(batch.blocks));
+    const auto masks =
+        exec.template make_zero<std::uint64_t>(n * kBlockCells * DenseLobe::kMaskWords);
+    const auto lobes =
+        exec.template make_zero<std::uint64_t>(planes * kBlockCells * DenseLobe::kLobeWords);
+    const auto maps = exec.template make_zero<std::uint64_t>(
+        scene.with_maps ? planes * kBlockCells * DenseLobe::kMapWords : 0);
+    const DenseSums sums{blocks.data(), masks.data(), lobes.data(), maps.data()};
+    const FiberBatch fibers{scene.fibers, scene.tables, sums};
+    gather_plain(exec, fibers, pairs.of[static_cast<std::size_t>(PrimitiveKind::Plain)]);
+    gather_yarns(exec, fibers, pairs.of[static_cast<std::size_t>(PrimitiveKind::Yarn)]);
+    return fit_sums(exec, sums, n, merging, scene.fit);
+}
+
+} // namespace heddle
