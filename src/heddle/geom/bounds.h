@@ -1,5 +1,6 @@
 #pragma once
 
+#include <heddle/base/platform.h>
 #include <heddle/base/vec.h>
 
 #include <algorithm>
@@ -15,20 +16,20 @@ struct Bounds {
              -std::numeric_limits<double>::infinity()};
 
     /// Grows to hold the ball of radius `r` about `p`.
-    void grow(Vec3d p, double r = 0.0) {
+    HEDDLE_HD void grow(Vec3d p, double r = 0.0) {
         for (int a = 0; a < 3; ++a) {
             lo[a] = std::min(lo[a], p[a] - r);
             hi[a] = std::max(hi[a], p[a] + r);
         }
     }
-    void grow(const Bounds& b) {
+    HEDDLE_HD void grow(const Bounds& b) {
         for (int a = 0; a < 3; ++a) {
             lo[a] = std::min(lo[a], b.lo[a]);
             hi[a] = std::max(hi[a], b.hi[a]);
         }
     }
-    [[nodiscard]] bool empty() const { return !(lo.x <= hi.x && lo.y <= hi.y && lo.z <= hi.z); }
-    [[nodiscard]] Vec3d size() const { return empty() ? Vec3d{} : hi - lo; }
+    [[nodiscard]] HEDDLE_HD bool empty() const { return !(lo.x <= hi.x && lo.y <= hi.y && lo.z <= hi.z); }
+    [[nodiscard]] HEDDLE_HD Vec3d size() const { return empty() ? Vec3d{} : hi - lo; }
 };
 
 } // namespace heddle

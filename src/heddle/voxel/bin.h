@@ -1,30 +1,14 @@
 #pragma once
 
 #include <heddle/base/progress.h>
+#include <heddle/voxel/block_range.h>
 #include <heddle/voxel/fiber_source.h>
-#include <heddle/voxel/lattice_units.h>
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace heddle {
-
-/// The blocks that cover a voxel range: aligned to multiples of kBlockVoxels, numbered x-major.
-struct BlockRange {
-    Vec3i voxel_lo, voxel_hi; ///< [lo, hi)
-    Vec3i lo, size;           ///< first block's index, blocks per axis
-
-    BlockRange() = default;
-    BlockRange(Vec3i voxel_lo, Vec3i voxel_hi);
-    [[nodiscard]] std::uint64_t count() const {
-        return static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y) *
-               static_cast<std::uint64_t>(size.z);
-    }
-    [[nodiscard]] Vec3i index(std::uint64_t block) const;
-    /// Voxel range of a block, cut to the whole's.
-    void voxels(std::uint64_t block, Vec3i& begin, Vec3i& end) const;
-};
 
 /// A primitive of a block: a fiber piece's id (gather_fibers.h), or a triangle's number with the top
 /// bit set.

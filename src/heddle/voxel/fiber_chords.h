@@ -117,7 +117,7 @@ struct HairPath {
     const LocalCubic& cubic;
     const YarnCourse& course;
     const FlyawayHair& hair;
-    float ply_cos, ply_sin; ///< base angle of the hair's ply
+    SinCos ply;         ///< base angle of the hair's ply
     float ply_offset;       ///< model units
     float fiber_radius;     ///< model units
 
@@ -131,7 +131,7 @@ struct HairPath {
             const double s = hair.z0 + hair.ze * q;
             const auto t = static_cast<float>((s - course.start) / course.length);
             const YarnFrame yarn_at(cubic, course, t);
-            const PlyFrame at = yarn_at.of_ply(ply_cos, ply_sin);
+            const PlyFrame at = yarn_at.of_ply(ply);
             const SinCos turn = sincos_turns((hair.p0 + hair.pe * q) / 6.283185307179586);
             const auto r = static_cast<float>(hair.r0 + hair.re * q);
             const Vec3f to = at.center + (ply_offset + r * turn.cos) * at.u + (r * turn.sin) * at.v;

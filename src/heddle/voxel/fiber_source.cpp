@@ -8,10 +8,6 @@
 namespace heddle {
 namespace {
 
-/// A piece is at most this long, in units: half a block, so that a long hair visits the blocks along
-/// it and not those of its box, and single precision resolves 1e-5 of a subvoxel beside its anchor.
-constexpr double kPieceLength = 128.0;
-
 constexpr std::size_t kGrain = 4096;
 
 double arc_length(const Cubic& c) {
@@ -48,53 +44,60 @@ Vec3d perpendicular(Vec3d t) {
     return to_double(any_perpendicular(to_float(t)));
 }
 
+template <typename T>
+const T* data_or_null(const std::vector<T>& v) {
+    return v.empty() ? nullptr : v.data();
+}
+
+/// The view of what the file says of a set.
+CurveSetView points_of(const CurveSet& set) {
+    CurveSetView view;
+    view.points = set.points.data();
+    view.first = set.first.data();
+    view.closed = data_or_null(set.closed);
+    view.radius = data_or_null(set.radius);
+    view.color = data_or_null(set.color);
+    view.curve_count = set.curve_count();
+    view.default_radius = set.default_radius;
+    view.material = set.material;
+    view.basis = set.basis;
+    return view;
+}
+
 } // namespace
 
-Cubic Cubic::part(double t0, double dt) const {
-    return {{at(t0), dt * derivative(t0), (dt * dt) * (c[2] + (3.0 * t0) * c[3]),
-             (dt * dt * dt) * c[3]}};
-}
-
-double Cubic::polygon_length() const {
-    // Bernstein differences: c1 / 3, (c1 + c2) / 3, (c1 + 2 c2 + 3 c3) / 3 ... in power form
-    const Vec3d b1 = (1.0 / 3.0) * c[1];
-    const Vec3d b2 = b1 + (1.0 / 3.0) * c[2];
-    const Vec3d b3 = b2 + (1.0 / 3.0) * c[2] + c[3];
-    return length(b1) + length(b2) + length(b3);
-}
-
-Bounds Cubic::hull() const {
-    Bounds box;
-    const Vec3d p1 = c[0] + (1.0 / 3.0) * c[1];
-    const Vec3d p2 = p1 + (1.0 / 3.0) * c[1] + (1.0 / 3.0) * c[2];
-    box.grow(c[0]);
-    box.grow(p1);
-    box.grow(p2);
-    box.grow(at(1.0));
-    return box;
+YarnView yarn_view(const YarnType& yarn) {
+    return {.model = yarn.model,
+            .ply_clockwise = yarn.ply_clockwise,
+            .fiber_clockwise = yarn.fiber_clockwise,
+            .migration = yarn.migration,
+            .flyaways = yarn.flyaways,
+            .radius = yarn.radius,
+            .model_radius = yarn.model_radius,
+            .reach = yarn_reach(yarn),
+            .fiber_radius = yarn.fiber_radius,
+            .plies = yarn.plies,
+            .fibers_per_ply = yarn.fibers_per_ply,
+            .ply_pitch = yarn.ply_pitch,
+            .fiber_pitch = yarn.fiber_pitch,
+            .ply_offset = yarn.ply_offset,
+            .ellipse_long = yarn.ellipse_long,
+            .ellipse_short = yarn.ellipse_short,
+            .migration_frequency = yarn.migration_frequency,
+            .migration_min = yarn.migration_min,
+            .migration_max = yarn.migration_max,
+            .hair_density = yarn.hair_density,
+            .hair_ze = yarn.hair_ze,
+            .hair_r0 = yarn.hair_r0,
+            .hair_re = yarn.hair_re,
+            .hair_pe = yarn.hair_pe,
+            .loop_density = yarn.loop_density,
+            .loop_r1 = yarn.loop_r1,
+            .twist = yarn.twist};
 }
 
 Cubic span_cubic(const CurveSet& set, std::size_t curve, std::size_t k) {
-    const std::size_t first = set.first[curve];
-    const std::size_t n = set.first[curve + 1] - first;
-    const bool closed = set.is_closed(curve);
-    const auto point = [&](std::size_t i) {
-        return to_double(set.points[first + (closed ? i % n : i)]);
-    };
-    if (set.basis == Basis::Linear) {
-        const Vec3d p0 = point(k);
-        return {{p0, point(k + 1) - p0, {}, {}}};
-    }
-    const Vec3d p0 = point(closed ? k + n - 1 : k);
-    const Vec3d p1 = point(closed ? k : k + 1);
-    const Vec3d p2 = point(closed ? k + 1 : k + 2);
-    const Vec3d p3 = point(closed ? k + 2 : k + 3);
-    if (set.basis == Basis::CatmullRom) {
-        return {{p1, 0.5 * (p2 - p0), p0 - 2.5 * p1 + 2.0 * p2 - 0.5 * p3,
-                 0.5 * (p3 - p0) + 1.5 * (p1 - p2)}};
-    }
-    return {{(1.0 / 6.0) * (p0 + 4.0 * p1 + p2), 0.5 * (p2 - p0), 0.5 * (p0 - 2.0 * p1 + p2),
-             (1.0 / 6.0) * (p3 - p0) + 0.5 * (p1 - p2)}};
+    return span_cubic(points_of(set), curve, k);
 }
 
 FiberSource::FiberSource(const Geometry& geometry, const LatticeUnits& units, std::uint64_t seed)
@@ -114,6 +117,13 @@ FiberSource::FiberSource(const Geometry& geometry, const LatticeUnits& units, st
         first_span_.push_back(first_span_.back() + spans.back());
         const YarnType* yarn = yarn_of(s);
         if (yarn != nullptr && yarn->model != YarnModel::Solid) build_frames(s);
+        CurveSetView& view = sets_.emplace_back(points_of(set));
+        view.spans = spans.data();
+        view.length = data_or_null(frames_[s].length);
+        view.normal = data_or_null(frames_[s].normal);
+        view.closing = data_or_null(frames_[s].closing);
+        view.has_yarn = yarn != nullptr;
+        if (yarn != nullptr) view.yarn = yarn_view(*yarn);
     }
     count_steps();
 }
@@ -162,45 +172,14 @@ void FiberSource::count_steps() {
             [&](std::size_t b, std::size_t e) {
                 double sum = 0.0;
                 for (std::size_t i = b; i < e; ++i) {
-                    const SpanPlace at = place(begin + i);
-                    sum += arc_length(span_cubic(geometry_.curves[s], at.curve, at.k));
+                    const std::uint64_t curve = range_of(sets_[s].spans, sets_[s].curve_count, i);
+                    sum += arc_length(span_cubic(sets_[s], curve, i - sets_[s].spans[curve]));
                 }
                 return sum;
             },
             [](double a, double b) { return a + b; });
         steps_ += total / units_.unit * static_cast<double>(fiber_count(s));
     }
-}
-
-FiberSource::SpanPlace FiberSource::place(std::uint64_t span) const {
-    const auto set = std::upper_bound(first_span_.begin() + 1, first_span_.end(), span) - 1;
-    const auto s = static_cast<std::uint32_t>(set - first_span_.begin());
-    const std::uint64_t local = span - *set;
-    const std::vector<std::uint64_t>& spans = curve_spans_[s];
-    const auto curve = std::upper_bound(spans.begin() + 1, spans.end(), local) - 1;
-    return {s, static_cast<std::uint64_t>(curve - spans.begin()), local - *curve};
-}
-
-FiberPiece FiberSource::whole_span(std::uint64_t span) const {
-    const SpanPlace at = place(span);
-    const Cubic cubic = span_cubic(geometry_.curves[at.set], at.curve, at.k);
-    const double parts = std::ceil(cubic.polygon_length() / (kPieceLength * units_.unit));
-    return {.set = at.set,
-            .parts =
-                static_cast<std::uint32_t>(std::clamp(parts, 1.0, static_cast<double>(kMaxParts))),
-            .curve = at.curve,
-            .span = at.k,
-            .cubic = cubic};
-}
-
-FiberPiece FiberSource::part_of(const FiberPiece& span, std::uint32_t part) {
-    FiberPiece piece = span;
-    piece.part = part;
-    if (span.parts > 1) {
-        const double dt = 1.0 / span.parts;
-        piece.cubic = span.cubic.part(part * dt, dt);
-    }
-    return piece;
 }
 
 const YarnType* FiberSource::yarn_of(std::uint32_t set) const {
@@ -210,83 +189,6 @@ const YarnType* FiberSource::yarn_of(std::uint32_t set) const {
 std::int64_t FiberSource::fiber_count(std::uint32_t set) const {
     const YarnType* yarn = yarn_of(set);
     return yarn == nullptr ? 1 : yarn->fiber_count();
-}
-
-namespace {
-
-/// Yarn radius at a span's end, scene units.
-double radius_at(const CurveSet& set, const YarnType* yarn, const FiberPiece& piece, bool end) {
-    if (yarn != nullptr && yarn->radius > 0.0f) return static_cast<double>(yarn->radius);
-    const std::size_t first = set.first[piece.curve];
-    const std::size_t n = set.first[piece.curve + 1] - first;
-    const bool closed = set.is_closed(piece.curve);
-    const std::size_t skip = closed || set.basis == Basis::Linear ? 0 : 1;
-    const auto knot = [&](std::size_t k) {
-        return static_cast<double>(set.radius_at(first + (closed ? k % n : k + skip)));
-    };
-    const double t = (piece.part + (end ? 1.0 : 0.0)) / piece.parts;
-    return (1.0 - t) * knot(piece.span) + t * knot(piece.span + 1);
-}
-
-} // namespace
-
-double FiberSource::reach(const FiberPiece& piece) const {
-    const CurveSet& set = geometry_.curves[piece.set];
-    const YarnType* yarn = yarn_of(piece.set);
-    const double radius =
-        std::max(radius_at(set, yarn, piece, false), radius_at(set, yarn, piece, true));
-    if (yarn == nullptr) return radius;
-    return radius * static_cast<double>(yarn_reach(*yarn) / yarn->model_radius);
-}
-
-YarnCourse FiberSource::course(const FiberPiece& piece) const {
-    const CurveSet& set = geometry_.curves[piece.set];
-    const YarnType* yarn = yarn_of(piece.set);
-    YarnCourse course;
-    const double r0 = radius_at(set, yarn, piece, false);
-    const double r1 = radius_at(set, yarn, piece, true);
-    const double model = yarn == nullptr ? 1.0 : static_cast<double>(yarn->model_radius);
-    course.scale0 = static_cast<float>(r0 / units_.unit / model);
-    course.scale1 = static_cast<float>(r1 / units_.unit / model);
-    const YarnFrames& frames = frames_[piece.set];
-    if (frames.length.empty()) return course;
-
-    const std::vector<std::uint64_t>& spans = curve_spans_[piece.set];
-    const std::size_t knot = spans[piece.curve] + piece.curve;
-    const std::size_t count = spans[piece.curve + 1] - spans[piece.curve];
-    FiberPiece head =
-        piece; // twist and hairs go by the radius at the yarn's head, the section by its own
-    head.span = 0;
-    head.part = 0;
-    const double per_scene = model / std::max(radius_at(set, yarn, head, false), 1e-300);
-    const double s0 = frames.length[knot + piece.span];
-    const double s1 = frames.length[knot + piece.span + 1];
-    const double dt = 1.0 / piece.parts;
-    course.start = (s0 + (s1 - s0) * dt * piece.part) * per_scene;
-    course.length = (s1 - s0) * dt * per_scene;
-    course.total = frames.length[knot + count] * per_scene;
-    course.closed = set.is_closed(piece.curve);
-    course.closing_turns = static_cast<double>(frames.closing[piece.curve]);
-    const Vec3f n0 = frames.normal[knot + piece.span];
-    const Vec3f n1 = frames.normal[knot + piece.span + 1];
-    const auto t0 = static_cast<float>(dt * piece.part);
-    const auto t1 = static_cast<float>(dt * (piece.part + 1));
-    course.normal0 = n0 * (1.0f - t0) + n1 * t0;
-    course.normal1 = n0 * (1.0f - t1) + n1 * t1;
-
-    double* turns = course.turns_per_length;
-    if (yarn->model == YarnModel::Slice) {
-        turns[1] = static_cast<double>(yarn->twist) / 6.283185307179586;
-    } else {
-        const double direction = yarn->fiber_clockwise ? -1.0 : 1.0;
-        turns[0] = (yarn->ply_clockwise ? -1.0 : 1.0) / static_cast<double>(yarn->ply_pitch);
-        turns[1] = direction / static_cast<double>(yarn->fiber_pitch);
-        turns[2] = turns[1] * static_cast<double>(yarn->migration_frequency);
-    }
-    if (course.closed && course.total > 0.0) {
-        for (int i = 0; i < 3; ++i) turns[i] = std::round(turns[i] * course.total) / course.total;
-    }
-    return course;
 }
 
 std::int64_t FiberSource::byte_count() const {

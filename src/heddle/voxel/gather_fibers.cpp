@@ -225,7 +225,7 @@ void FiberGatherer::State::gather_yarn(const FiberPiece& piece,
             tile.radius[j] = table.fiber_radius * frame.scale;
             for (std::size_t ply = 0; ply < plies; ++ply) {
                 frames[ply * FiberTile::kSamples + static_cast<std::size_t>(j)] =
-                    frame.of_ply(table.ply_cos[ply], table.ply_sin[ply]);
+                    frame.of_ply({table.ply_sin[ply], table.ply_cos[ply]});
             }
         }
         const double t0 = static_cast<double>(j0 - 1) / count;
@@ -312,8 +312,7 @@ void FiberGatherer::State::gather_hairs(const YarnType& yarn,
                            HairPath{cubic,
                                     course,
                                     hair,
-                                    table.ply_cos[ply],
-                                    table.ply_sin[ply],
+                                    {table.ply_sin[ply], table.ply_cos[ply]},
                                     yarn.ply_offset,
                                     table.fiber_radius}
                                .for_each_chord([&](const Chord& c) { chords.push_back(c); });

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <heddle/base/trig.h>
-#include <heddle/voxel/fiber_source.h>
 #include <heddle/voxel/fiber_tile.h>
+#include <heddle/voxel/fiber_view.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ struct LocalCubic {
     Vec3i anchor; ///< voxel index
     Vec3f c[4];
 
-    LocalCubic(const Cubic& cubic, const LatticeUnits& u) {
+    HEDDLE_HD LocalCubic(const Cubic& cubic, const LatticeUnits& u) {
         for (int a = 0; a < 3; ++a) {
             anchor[a] = static_cast<std::int32_t>(std::floor(cubic.c[0][a] / u.voxel_size[a]));
             const double corner = anchor[a] * u.voxel_size[a];
@@ -22,13 +22,17 @@ struct LocalCubic {
             for (int i = 1; i < 4; ++i) c[i][a] = static_cast<float>(cubic.c[i][a] / u.unit);
         }
     }
-    [[nodiscard]] Vec3f at(float t) const { return c[0] + t * (c[1] + t * (c[2] + t * c[3])); }
-    [[nodiscard]] Vec3f derivative(float t) const {
+    [[nodiscard]] HEDDLE_HD Vec3f at(float t) const {
+        return c[0] + t * (c[1] + t * (c[2] + t * c[3]));
+    }
+    [[nodiscard]] HEDDLE_HD Vec3f derivative(float t) const {
         return c[1] + t * (2.0f * c[2] + (3.0f * t) * c[3]);
     }
-    [[nodiscard]] Vec3f second_derivative(float t) const { return 2.0f * c[2] + (6.0f * t) * c[3]; }
+    [[nodiscard]] HEDDLE_HD Vec3f second_derivative(float t) const {
+        return 2.0f * c[2] + (6.0f * t) * c[3];
+    }
     /// Largest |P''|: linear in t, so at one of the ends.
-    [[nodiscard]] float bend() const {
+    [[nodiscard]] HEDDLE_HD float bend() const {
         return std::max(length(second_derivative(0.0f)), length(second_derivative(1.0f)));
     }
 };
@@ -41,7 +45,7 @@ struct YarnFrame {
     double s;                    ///< yarn length since its start, model units
     float scale;                 ///< units per model unit
 
-    YarnFrame(const LocalCubic& cubic, const YarnCourse& course, float t) {
+    HEDDLE_HD YarnFrame(const LocalCubic& cubic, const YarnCourse& course, float t) {
         const Vec3f tangent = normalize(cubic.derivative(t));
         const Vec3f lerped = course.normal0 * (1.0f - t) + course.normal1 * t;
         normal = normalize(lerped - dot(lerped, tangent) * tangent, any_perpendicular(tangent));
@@ -53,14 +57,14 @@ struct YarnFrame {
         ply = sincos_turns(course.turns_per_length[0] * s + closing);
     }
     /// Sets what fibers need beside their ply's frame.
-    void twist(const YarnCourse& course) {
+    HEDDLE_HD void twist(const YarnCourse& course) {
         fiber = sincos_turns(course.turns_per_length[1] * s);
         migration = sincos_turns(course.turns_per_length[2] * s);
     }
-    /// @param base_cos, base_sin  base angle of the ply
-    [[nodiscard]] PlyFrame of_ply(float base_cos, float base_sin) const {
-        const float c = (base_cos * ply.cos - base_sin * ply.sin) * scale;
-        const float sn = (base_sin * ply.cos + base_cos * ply.sin) * scale;
+    /// @param base  angle of the ply at the yarn's start
+    [[nodiscard]] HEDDLE_HD PlyFrame of_ply(SinCos base) const {
+        const float c = (base.cos * ply.cos - base.sin * ply.sin) * scale;
+        const float sn = (base.sin * ply.cos + base.cos * ply.sin) * scale;
         return {center, c * normal + sn * binormal, c * binormal - sn * normal, fiber, migration};
     }
 };
