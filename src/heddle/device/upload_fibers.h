@@ -1,0 +1,74 @@
+#pragma once
+
+#include <heddle/gpu/array.h>
+#include <heddle/voxel/fiber_source.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace heddle {
+
+/// A FiberView where an executor works, and the arrays that it points to.
+struct FiberArrays {
+    /// Of one curve set; arrays that the set lacks are empty.
+    struct Set {
+        gpu::Array<Vec3f> points, normal;
+        gpu::Array<std::uint64_t> first, spans;
+        gpu::Array<std::uint8_t> closed;
+        gpu::Array<float> radius, closing;
+        gpu::Array<std::uint32_t> color;
+        gpu::Array<double> length;
+    };
+    std::vector<Set> parts;
+    gpu::Array<CurveSetView> sets;
+    gpu::Array<std::uint64_t> first_span;
+    FiberView view; ///< valid while this lives, moved or not
+};
+
+namespace upload_detail {
+
+/// Copies n objects, and points to the copy; null stays null.
+template <typename Exec, typename T>
+void replace(Exec& exec, gpu::Array<T>& held, const T*& data, std::size_t n) {
+    if (data == nullptr) return;
+    held = exec.make_from(std::span<const T>(data, n));
+    data = held.data();
+}
+
+} // namespace upload_detail
+
+/// Copies what fibers are made of to where `exec` works.
+/// @throws Error  OutOfMemory, Device
+template <typename Exec>
+[[nodiscard]] FiberArrays upload_fibers(Exec& exec, const FiberSource& source) {
+    using upload_detail::replace;
+    FiberArrays out;
+    out.view = source.view();
+    std::vector<CurveSetView> sets(out.view.sets, out.view.sets + out.view.set_count);
+    for (CurveSetView& set : sets) {
+        FiberArrays::Set& part = out.parts.emplace_back();
+        if (set.curve_count == 0) continue; // nothing of it is read
+        const std::size_t curves = set.curve_count;
+        const std::size_t points = set.first[curves];
+        const std::size_t knots = set.spans[curves] + curves;
+        replace(exec, part.points, set.points, points);
+        replace(exec, part.radius, set.radius, points);
+        replace(exec, part.color, set.color, points);
+        replace(exec, part.closed, set.closed, curves);
+        replace(exec, part.closing, set.closing, curves);
+        replace(exec, part.length, set.length, knots);
+        replace(exec, part.normal, set.normal, knots);
+        replace(exec, part.first, set.first, curves + 1);
+        replace(exec, part.spans, set.spans, curves + 1);
+    }
+    const CurveSetView* from = sets.data();
+    replace(exec, out.sets, from, sets.size());
+    out.view.sets = from;
+    replace(exec, out.first_span, out.view.first_span, out.view.set_count + 1);
+    exec.wait(); // `sets` is read until then
+    return out;
+}
+
+} // namespace heddle
