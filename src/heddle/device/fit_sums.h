@@ -42,7 +42,7 @@ template <typename Exec>
         op.sums = sums;
         op.settings = settings;
         op.cells = cells;
-        op.count = static_cast<std::uint32_t>(n);
+        op.voxel_count = static_cast<std::uint32_t>(n);
         op.first_voxel = first_voxel.data();
         op.first_lobe = first_lobe.data();
         op.key = out.key.data();

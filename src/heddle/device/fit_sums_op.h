@@ -64,8 +64,8 @@ template <bool kPool>
 struct FitVoxelOp {
     DenseSums sums;
     FitSettings settings;
-    std::size_t cells;   ///< of the batch; item `cells` writes where the last voxel's lobes end
-    std::uint32_t count; ///< of voxels
+    std::size_t cells; ///< of the batch; item `cells` writes where the last voxel's lobes end
+    std::uint32_t voxel_count;
     const std::uint32_t* first_voxel; ///< per i, and the end
     const std::uint32_t* first_lobe;  ///< per i, and the end
     std::uint64_t* key;
@@ -78,7 +78,7 @@ struct FitVoxelOp {
 
     HEDDLE_HD void operator()(std::size_t i) const {
         if (i == cells) {
-            lobe_begin[count] = first_lobe[cells];
+            lobe_begin[voxel_count] = first_lobe[cells];
             return;
         }
         const std::uint32_t v = first_voxel[i];

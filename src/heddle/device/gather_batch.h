@@ -15,7 +15,7 @@ struct DeviceScene {
     FiberView fibers;
     FiberTablesView tables;
     std::uint64_t triangle_count = 0;
-    BlockLattice range;
+    BlockRange range;
     FitSettings fit;
     bool with_maps = false; ///< map sums are kept
 };
@@ -47,10 +47,8 @@ struct SetSlotsOp {
 /// Lists the primitives of a batch's blocks, and gives each block its planes: one a material.
 /// @param slot_of_block  per block of the range, all kNoSlot; is left so
 template <typename Exec>
-[[nodiscard]] BatchPairs list_pairs(Exec& exec,
-                                    const DeviceScene& scene,
-                                    BlockBatch& batch,
-                                    std::uint32_t* slot_of_block) {
+[[nodiscard]] BatchPairs
+list_pairs(Exec& exec, const DeviceScene& scene, BlockBatch& batch, std::uint32_t* slot_of_block) {
     exec.set_stage("bin");
     const std::size_t n = batch.blocks.size();
     const auto numbers = exec.make_from(std::span<const std::uint32_t>(batch.numbers));
@@ -66,8 +64,7 @@ template <typename Exec>
         list.pairs[k] = pairs.of[k].data();
     }
     exec.for_each(n, SetSlotsOp{numbers.data(), slot_of_block, true});
-    exec.for_each(scene.fibers.span_count,
-                  WalkSpanOp<ListPairs>{scene.fibers, scene.range, list});
+    exec.for_each(scene.fibers.span_count, WalkSpanOp<ListPairs>{scene.fibers, scene.range, list});
     exec.for_each(n, SetSlotsOp{numbers.data(), slot_of_block, false});
     exec.download(std::span(batch.blocks), blocks.data());
     std::uint32_t planes = 0;

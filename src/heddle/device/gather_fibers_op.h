@@ -1,7 +1,7 @@
 #pragma once
 
 #include <heddle/base/offset_search.h>
-#include <heddle/device/bin_op.h>
+#include <heddle/device/block_pairs_op.h>
 #include <heddle/device/dense_sums.h>
 #include <heddle/device/fiber_tables.h>
 #include <heddle/voxel/chord_op.h>
@@ -36,9 +36,11 @@ struct FiberBatch {
     }
     /// Adds a chord of any thickness to a block.
     /// @param anchor  the voxel that it is relative to
-    HEDDLE_HD void
-    add_chord(std::uint32_t slot, const Chord& chord, Vec3f bend, Vec3i anchor, const DenseLobe& to)
-        const {
+    HEDDLE_HD void add_chord(std::uint32_t slot,
+                             const Chord& chord,
+                             Vec3f bend,
+                             Vec3i anchor,
+                             const DenseLobe& to) const {
         const Vec3i relative = anchor - sums.blocks[slot].lo;
         if (chord.radius > kThickRadius) {
             gather_chord(to, fibers.units, sums.blocks[slot].size, chord, relative);
@@ -103,9 +105,9 @@ struct PrepareYarnOp {
         const CurveSetView& set = fibers.sets[piece.set];
         const LocalCubic cubic(piece.cubic, fibers.units);
         const YarnCourse course = fibers.course(piece);
-        const int count = yarn_chord_count(cubic, course, section_of(set.yarn),
-                                           piece.cubic.polygon_length() / fibers.units.unit,
-                                           fibers.units);
+        const int count =
+            yarn_chord_count(cubic, course, section_of(set.yarn),
+                             piece.cubic.polygon_length() / fibers.units.unit, fibers.units);
         yarns[i] = {cubic, course, piece.curve, piece.set, pairs[i].slot, count};
         frames[i] = static_cast<std::uint32_t>(count + 3);
         const std::uint64_t* first =
@@ -116,8 +118,7 @@ struct PrepareYarnOp {
         hairs[i] = 0;
         if (!set.yarn.flyaways || !(set.yarn.hair_density > 0.0f)) return;
         const HairModel model(HairShape(set.yarn), course.total, course.closed);
-        const std::int64_t cells =
-            model.cells(course.start, course.start + course.length).count();
+        const std::int64_t cells = model.cells(course.start, course.start + course.length).count();
         if (cells > 0) hairs[i] = static_cast<std::uint32_t>(cells * ply_count(set.yarn));
     }
     [[nodiscard]] HEDDLE_HD static std::int32_t ply_count(const YarnView& yarn) {
@@ -227,16 +228,20 @@ private:
     class FiberSampler {
     public:
         HEDDLE_HD
-        FiberSampler(const FiberBatch& batch, const YarnPair& yarn, const Run& run, const YarnView& type)
+        FiberSampler(const FiberBatch& batch,
+                     const YarnPair& yarn,
+                     const Run& run,
+                     const YarnView& type)
             : run_(run), section_(section_of(type)), loops_(type) {
             const FiberTablesView& t = batch.tables;
             const std::uint64_t f = run.fiber;
             radius_ = t.radius[f];
             constants_ = {Real(radius_), Real(t.cos_angle[f]), Real(t.sin_angle[f]),
                           Real(t.cos_migration[f]), Real(t.sin_migration[f])};
-            const std::uint64_t ply = type.model == YarnModel::Slice
-                                          ? 0
-                                          : run.number / static_cast<std::uint64_t>(type.fibers_per_ply);
+            const std::uint64_t ply =
+                type.model == YarnModel::Slice
+                    ? 0
+                    : run.number / static_cast<std::uint64_t>(type.fibers_per_ply);
             ply_ = t.ply[t.ply_of_set[yarn.set] + ply];
             with_loops_ = type.flyaways && type.loop_density > 0.0f;
             if (!with_loops_) return;
@@ -250,8 +255,7 @@ private:
         [[nodiscard]] HEDDLE_HD LanePoint<Real> at(int j) {
             const PlyFrame frame = run_.frames[j].of_ply(ply_);
             if (!with_loops_) return fiber_point<Real>(constants_, frame, section_, nullptr);
-            const double phase =
-                loops_.phase_at(s0_ + (s1_ - s0_) * j / (run_.chords + 2), turns_);
+            const double phase = loops_.phase_at(s0_ + (s1_ - s0_) * j / (run_.chords + 2), turns_);
             const double ratio = memo_.ratio(loops_, id_, LoopModel::period_of(phase), radius_);
             const Real loop(LoopModel::factor(ratio, phase));
             return fiber_point(constants_, frame, section_, &loop);
@@ -295,7 +299,11 @@ struct GatherHairOp {
         }
         const SinCos base = batch.tables.ply[batch.tables.ply_of_set[yarn.set] + ply];
         const DenseLobe to = batch.sums.lobe(yarn.slot, set.material);
-        HairPath{yarn.cubic, course, hair, base, set.yarn.ply_offset,
+        HairPath{yarn.cubic,
+                 course,
+                 hair,
+                 base,
+                 set.yarn.ply_offset,
                  batch.tables.set_fiber_radius[yarn.set]}
             .for_each_chord(AddChord{batch, yarn, to});
     }

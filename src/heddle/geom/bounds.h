@@ -28,7 +28,9 @@ struct Bounds {
             hi[a] = std::max(hi[a], b.hi[a]);
         }
     }
-    [[nodiscard]] HEDDLE_HD bool empty() const { return !(lo.x <= hi.x && lo.y <= hi.y && lo.z <= hi.z); }
+    [[nodiscard]] HEDDLE_HD bool empty() const {
+        return !(lo.x <= hi.x && lo.y <= hi.y && lo.z <= hi.z);
+    }
     [[nodiscard]] HEDDLE_HD Vec3d size() const { return empty() ? Vec3d{} : hi - lo; }
 };
 

@@ -4,16 +4,13 @@
 #include <heddle/base/vec.h>
 #include <heddle/voxel/lattice_units.h>
 #include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/weight.h>
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
 namespace heddle {
-
-/// Fixed-point scale of weights and moments: one unit^2 of directed area is 2^20; 64-bit sums hold
-/// 8.8e12 units^2.
-constexpr float kWeightScale = 1048576.0f;
 
 /// Pooled directions of one material in one voxel. Integer sums: no order of adding shows.
 struct LobeSums {
@@ -45,14 +42,14 @@ public:
     void reset(Vec3i lo, Vec3i hi);
 
     /// The voxel's sums, made empty at the first call. (x, y, z) relative to lo, inside the block.
-    HEDDLE_INLINE VoxelSums& voxel(int x, int y, int z) {
+    HEDDLE_HOST_INLINE VoxelSums& voxel(int x, int y, int z) {
         return voxel_at(static_cast<std::uint32_t>((x * kBlockVoxels + y) * kBlockVoxels + z));
     }
     /// Voxels that take what lanes without a hit write: numbers kVoxels and on.
     static constexpr int kSpareVoxels = 8;
 
     /// The same by its number, (x 32 + y) 32 + z.
-    HEDDLE_INLINE VoxelSums& voxel_at(std::uint32_t cell) {
+    HEDDLE_HOST_INLINE VoxelSums& voxel_at(std::uint32_t cell) {
         std::uint16_t& slot = table_[cell];
         if (slot == kNone) {
             slot = static_cast<std::uint16_t>(count_++);
@@ -62,7 +59,7 @@ public:
     }
 
     /// The sums of `material` in `voxel`, made empty at the first call.
-    HEDDLE_INLINE LobeSums& lobe(VoxelSums& voxel, std::uint32_t material) {
+    HEDDLE_HOST_INLINE LobeSums& lobe(VoxelSums& voxel, std::uint32_t material) {
         if (voxel.lobe.weight != 0 && voxel.lobe.material != material) {
             return other_lobe(voxel, material);
         }

@@ -67,6 +67,19 @@ struct PlainEnds {
     float turn_after = 0.0f;
 };
 
+/// |difference of directions| / 2 between a linear span's end and its neighbour; 0 at a free end.
+[[nodiscard]] HEDDLE_HD inline float
+joint_turn(const CurveSetView& set, const FiberPiece& piece, bool end) {
+    const std::uint64_t spans = set.span_count(piece.curve);
+    const bool closed = set.is_closed(piece.curve);
+    if (end ? piece.part + 1 < piece.parts : piece.part > 0) return 0.0f;
+    if (!closed && (end ? piece.span + 1 == spans : piece.span == 0)) return 0.0f;
+    const std::uint64_t other = end ? (piece.span + 1) % spans : (piece.span + spans - 1) % spans;
+    const Vec3d d =
+        normalize(span_cubic(set, piece.curve, other).c[1]) - normalize(piece.cubic.c[1]);
+    return static_cast<float>(0.5 * length(d));
+}
+
 /// Calls emit(chord) for each chord of a single round curve's piece, from its start on.
 /// @param count  of samples' intervals: chord_count(); those without length give no chord
 template <typename Emit>
@@ -118,8 +131,8 @@ struct HairPath {
     const YarnCourse& course;
     const FlyawayHair& hair;
     SinCos ply;         ///< base angle of the hair's ply
-    float ply_offset;       ///< model units
-    float fiber_radius;     ///< model units
+    float ply_offset;   ///< model units
+    float fiber_radius; ///< model units
 
     template <typename Emit>
     HEDDLE_INLINE void for_each_chord(Emit&& emit) const {

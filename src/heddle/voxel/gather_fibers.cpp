@@ -161,22 +161,6 @@ void FiberGatherer::State::gather_piece(const FiberPiece& piece, BlockSums& bloc
     }
 }
 
-namespace {
-
-/// |difference of directions| / 2 between a linear span's end and its neighbour; 0 at a free end.
-float joint_bend(const CurveSet& set, const FiberPiece& piece, bool end) {
-    const std::size_t spans = set.span_count(piece.curve);
-    const bool closed = set.is_closed(piece.curve);
-    if (end ? piece.part + 1 < piece.parts : piece.part > 0) return 0.0f;
-    if (!closed && (end ? piece.span + 1 == spans : piece.span == 0)) return 0.0f;
-    const std::size_t other = end ? (piece.span + 1) % spans : (piece.span + spans - 1) % spans;
-    const Vec3d d =
-        normalize(span_cubic(set, piece.curve, other).c[1]) - normalize(piece.cubic.c[1]);
-    return static_cast<float>(0.5 * length(d));
-}
-
-} // namespace
-
 void FiberGatherer::State::gather_plain(const FiberPiece& piece,
                                         const LocalCubic& cubic,
                                         PieceTarget& target) {
@@ -192,8 +176,9 @@ void FiberGatherer::State::gather_plain(const FiberPiece& piece,
     const bool linear = set.basis == Basis::Linear;
     PlainEnds ends{.linear = linear};
     if (linear) {
-        ends.turn_before = joint_bend(set, piece, false);
-        ends.turn_after = joint_bend(set, piece, true);
+        const CurveSetView& view = source.view().sets[piece.set];
+        ends.turn_before = joint_turn(view, piece, false);
+        ends.turn_after = joint_turn(view, piece, true);
     }
     chords.clear();
     for_each_plain_chord(cubic, course, ends, count, [&](const Chord& c) { chords.push_back(c); });

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <heddle/voxel/expand_op.h>
+#include <heddle/voxel/fiber_sums.h>
 #include <heddle/voxel/fiber_tile.h>
-#include <heddle/voxel/gather_chord.h>
 
 #include <cstdint>
 #include <span>

@@ -2,8 +2,8 @@
 
 #include <heddle/device/dense_sums.h>
 #include <heddle/gpu/atomic.h>
+#include <heddle/voxel/bin_op.h>
 #include <heddle/voxel/fiber_view.h>
-#include <heddle/voxel/primitive_blocks.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -34,8 +34,8 @@ struct CountPairs {
 
 /// Lists the pairs of a batch's blocks, each block's together, in any order.
 struct ListPairs {
-    const std::uint32_t* slot_of_block; ///< per block of the range; kNoSlot: of another batch
-    BatchBlock* blocks;                 ///< gets the materials
+    const std::uint32_t* slot_of_block;   ///< per block of the range; kNoSlot: of another batch
+    BatchBlock* blocks;                   ///< gets the materials
     std::uint64_t* next[kPrimitiveKinds]; ///< per slot: where its next pair goes
     BlockPair* pairs[kPrimitiveKinds];
 
@@ -50,8 +50,7 @@ struct ListPairs {
         const auto k = static_cast<int>(kind);
         const std::uint64_t at = gpu::atomic_add(next[k] + slot, 1);
         pairs[k][at] = {primitive, slot, 0};
-        gpu::atomic_or(&blocks[slot].materials[material / 64],
-                       std::uint64_t{1} << (material % 64));
+        gpu::atomic_or(&blocks[slot].materials[material / 64], std::uint64_t{1} << (material % 64));
     }
 };
 
@@ -59,27 +58,30 @@ struct ListPairs {
 template <typename To>
 struct WalkSpanOp {
     FiberView fibers;
-    BlockLattice range;
+    BlockRange range;
     To to;
 
     HEDDLE_HD void operator()(std::size_t span) const {
         const FiberPiece whole = fibers.whole_span(span);
         const CurveSetView& set = fibers.sets[whole.set];
-        const PrimitiveKind kind =
-            set.length != nullptr ? PrimitiveKind::Yarn : PrimitiveKind::Plain;
+        Visit visit{*this, set.length != nullptr ? PrimitiveKind::Yarn : PrimitiveKind::Plain, 0,
+                    set.material};
         for (std::uint32_t part = 0; part < whole.parts; ++part) {
-            const FiberPiece piece = part_of(whole, part);
-            const BlockBox box = range.blocks_of(piece_bounds(set, piece));
-            for (int x = box.lo.x; x <= box.hi.x; ++x) {
-                for (int y = box.lo.y; y <= box.hi.y; ++y) {
-                    for (int z = box.lo.z; z <= box.hi.z; ++z) {
-                        to.add(kind, std::uint64_t{span} << 16 | part, range.number({x, y, z}),
-                               set.material);
-                    }
-                }
-            }
+            visit.id = std::uint64_t{span} << 16 | part;
+            for_each_block(fibers, part_of(whole, part), range, visit);
         }
     }
+
+private:
+    struct Visit {
+        const WalkSpanOp& op;
+        PrimitiveKind kind;
+        std::uint64_t id;
+        std::uint32_t material;
+        HEDDLE_HD void operator()(int x, int y, int z) const {
+            op.to.add(kind, id, op.range.number({x, y, z}), material);
+        }
+    };
 };
 
 } // namespace heddle
