@@ -33,19 +33,24 @@ struct BatchPairs {
     std::array<gpu::Array<BlockPair>, kPrimitiveKinds> of;
 };
 
+/// Sets n numbers to one value.
+struct FillOp {
+    std::uint32_t* to;
+    std::uint32_t value;
+    HEDDLE_HD void operator()(std::size_t i) const { to[i] = value; }
+};
+
 /// Writes where blocks of the range stand in a batch.
 struct SetSlotsOp {
     const std::uint32_t* numbers;
     std::uint32_t* slot_of_block;
-    bool there; ///< false: takes them out again
     HEDDLE_HD void operator()(std::size_t slot) const {
-        slot_of_block[numbers[slot]] =
-            there ? static_cast<std::uint32_t>(slot) : ListPairs::kNoSlot;
+        slot_of_block[numbers[slot]] = static_cast<std::uint32_t>(slot);
     }
 };
 
 /// Lists the primitives of a batch's blocks, and gives each block its planes: one a material.
-/// @param slot_of_block  per block of the range, all kNoSlot; is left so
+/// @param slot_of_block  room for a number per block of the range
 template <typename Exec>
 [[nodiscard]] BatchPairs
 list_pairs(Exec& exec, const DeviceScene& scene, BlockBatch& batch, std::uint32_t* slot_of_block) {
@@ -63,9 +68,9 @@ list_pairs(Exec& exec, const DeviceScene& scene, BlockBatch& batch, std::uint32_
         list.next[k] = next[k].data();
         list.pairs[k] = pairs.of[k].data();
     }
-    exec.for_each(n, SetSlotsOp{numbers.data(), slot_of_block, true});
+    exec.for_each(scene.range.count(), FillOp{slot_of_block, ListPairs::kNoSlot});
+    exec.for_each(n, SetSlotsOp{numbers.data(), slot_of_block});
     exec.for_each(scene.fibers.span_count, WalkSpanOp<ListPairs>{scene.fibers, scene.range, list});
-    exec.for_each(n, SetSlotsOp{numbers.data(), slot_of_block, false});
     exec.download(std::span(batch.blocks), blocks.data());
     std::uint32_t planes = 0;
     for (BatchBlock& block : batch.blocks) {

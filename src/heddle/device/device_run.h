@@ -1,0 +1,254 @@
+#pragma once
+
+#include <heddle/base/error.h>
+#include <heddle/device/batch_plan.h>
+#include <heddle/device/gather_batch.h>
+#include <heddle/device/upload_fibers.h>
+#include <heddle/device/voxelize_device.h>
+#include <heddle/voxel/block_keeper.h>
+#include <heddle/voxel/block_worker.h>
+
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace heddle {
+
+/// @throws Error  Unsupported: what the pipeline of the device does not do
+void check_device_can(const Geometry& geometry, const VoxelizeOptions& options);
+
+/// Batches are done by several threads of the host: the first error of any stops all.
+class FirstError {
+public:
+    /// Calls body(), unless there is an error already.
+    template <typename Body>
+    void guard(const Body& body) {
+        if (failed()) return;
+        try {
+            body();
+        } catch (...) {
+            const std::scoped_lock lock(mutex_);
+            if (!first_) first_ = std::current_exception();
+            failed_ = true;
+        }
+    }
+    [[nodiscard]] bool failed() const { return failed_; }
+    void rethrow() const {
+        if (first_) std::rethrow_exception(first_);
+    }
+
+private:
+    std::mutex mutex_;
+    std::exception_ptr first_;
+    std::atomic<bool> failed_{false};
+};
+
+/// One voxelization by executors of one kind: geometry goes up once, then batches of blocks are gathered,
+/// fitted and sent back, each by whichever stream is free.
+template <typename Exec>
+class DeviceRun {
+public:
+    using MakeExec = std::function<std::unique_ptr<Exec>(gpu::Budget&)>;
+
+    /// @param device  memory_bytes is set
+    DeviceRun(const VoxelizeContext& context,
+              const VoxelizePlan& plan,
+              const DeviceOptions& device,
+              MakeExec make)
+        : context_(context),
+          plan_(plan),
+          device_(device),
+          make_(std::move(make)),
+          budget_(device.memory_bytes) {}
+
+    [[nodiscard]] std::unique_ptr<VoxelSource>
+    run(Progress& progress, LevelBuilder* levels, DeviceReport& report);
+
+private:
+    /// What one stream has of its own.
+    struct Lane {
+        std::unique_ptr<Exec> exec;
+        gpu::Array<std::uint32_t> slot_of_block;
+    };
+
+    void upload();
+    void count();
+    [[nodiscard]] std::vector<BatchRange> plan_work() const;
+    void work(std::size_t streams, const std::vector<BatchRange>& batches, Progress& progress);
+    void run_batch(Lane& lane, BatchRange range, Progress& progress);
+    [[nodiscard]] BlockBatch batch_of(BatchRange range) const;
+
+    const VoxelizeContext& context_;
+    const VoxelizePlan& plan_;
+    DeviceOptions device_;
+    MakeExec make_;
+    gpu::Budget budget_;
+    std::unique_ptr<Exec> base_; ///< holds what all streams read
+    DeviceScene scene_;
+    FiberArrays fibers_;
+    FiberTables tables_;
+    PairCounts counts_;
+    std::unique_ptr<BlockOrder> order_;
+    std::unique_ptr<BlockKeeper> keeper_;
+    LevelBuilder* levels_ = nullptr;
+    std::atomic<std::int64_t> batches_{0};
+};
+
+template <typename Exec>
+void DeviceRun<Exec>::upload() {
+    Exec& exec = *base_;
+    exec.set_stage("upload");
+    const PlacedFibers placed(context_.fibers);
+    fibers_ = upload_fibers(exec, context_.fibers);
+    tables_ = placed.upload(exec);
+    exec.wait();
+    scene_.fibers = fibers_.view;
+    scene_.tables = tables_.view();
+    scene_.range = context_.range;
+    scene_.with_maps = context_.fit.fields.map_sums();
+    scene_.fit.subvoxels = context_.fit.subvoxels;
+    scene_.fit.max_lobes = context_.fit.max_lobes;
+    for (std::size_t m = 0; m < context_.fit.normals.size(); ++m) {
+        if (context_.fit.normals[m]) scene_.fit.normals[m / 64] |= std::uint64_t{1} << (m % 64);
+    }
+}
+
+template <typename Exec>
+void DeviceRun<Exec>::count() {
+    Exec& exec = *base_;
+    exec.set_stage("bin");
+    const std::size_t blocks = context_.range.count();
+    std::array<gpu::Array<std::uint32_t>, kPrimitiveKinds> counts;
+    CountPairs to{};
+    for (std::size_t k = 0; k < kPrimitiveKinds; ++k) {
+        counts[k] = exec.template make_zero<std::uint32_t>(blocks);
+        to.counts[k] = counts[k].data();
+    }
+    exec.for_each(scene_.fibers.span_count,
+                  WalkSpanOp<CountPairs>{scene_.fibers, scene_.range, to});
+    for (std::size_t k = 0; k < kPrimitiveKinds; ++k) {
+        counts_[k].resize(blocks);
+        exec.download(std::span(counts_[k]), counts[k].data());
+    }
+}
+
+template <typename Exec>
+std::vector<BatchRange> DeviceRun<Exec>::plan_work() const {
+    const auto streams = static_cast<std::int64_t>(device_.streams);
+    const auto slots = static_cast<std::int64_t>(context_.range.count() * sizeof(std::uint32_t));
+    const BatchNeeds needs{.materials =
+                               static_cast<std::int64_t>(context_.geometry.materials.size()),
+                           .with_maps = scene_.with_maps,
+                           .with_levels = levels_ != nullptr};
+    const std::int64_t room = budget_.limit() - budget_.used() - streams * slots;
+    return plan_batches(*order_, counts_, needs, room / streams,
+                        std::max(device_.batches, streams));
+}
+
+template <typename Exec>
+BlockBatch DeviceRun<Exec>::batch_of(BatchRange range) const {
+    BlockBatch batch;
+    for (auto& first : batch.first_pair) first.push_back(0);
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+        const std::uint32_t number = order_->block[i];
+        BatchBlock& block = batch.blocks.emplace_back();
+        Vec3i end;
+        context_.range.voxels(number, block.lo, end);
+        block.index = order_->index[i];
+        block.size = end - block.lo;
+        batch.numbers.push_back(number);
+        for (std::size_t k = 0; k < kPrimitiveKinds; ++k) {
+            batch.first_pair[k].push_back(batch.first_pair[k].back() + counts_[k][number]);
+        }
+    }
+    return batch;
+}
+
+template <typename Exec>
+void DeviceRun<Exec>::work(std::size_t streams,
+                           const std::vector<BatchRange>& batches,
+                           Progress& progress) {
+    std::atomic<std::size_t> next{0};
+    FirstError error;
+    const auto lane = [&] {
+        error.guard([&] {
+            Lane mine;
+            mine.exec = make_(budget_);
+            mine.exec->set_stage("bin");
+            mine.slot_of_block = mine.exec->template make<std::uint32_t>(context_.range.count());
+            for (std::size_t b = next++; b < batches.size() && !error.failed(); b = next++) {
+                run_batch(mine, batches[b], progress);
+            }
+        });
+    };
+    {
+        std::vector<std::jthread> others;
+        for (std::size_t s = 1; s < streams; ++s) others.emplace_back(lane);
+        lane();
+    }
+    error.rethrow();
+}
+
+/// A batch that memory does not hold is done in halves.
+template <typename Exec>
+void DeviceRun<Exec>::run_batch(Lane& lane, BatchRange range, Progress& progress) {
+    progress.check();
+    BlockBatch batch = batch_of(range);
+    std::int64_t pairs = 0;
+    for (const auto& first : batch.first_pair) pairs += static_cast<std::int64_t>(first.back());
+    try {
+        const LevelArrays level0 =
+            gather_batch(*lane.exec, scene_, batch, lane.slot_of_block.data());
+        finish_batch(lane, range, level0);
+    } catch (const Error& e) {
+        if (e.code() != ErrorCode::OutOfMemory || range.end - range.begin < 2) throw;
+        const std::size_t middle = range.begin + (range.end - range.begin) / 2;
+        run_batch(lane, {range.begin, middle}, progress);
+        run_batch(lane, {middle, range.end}, progress);
+        return;
+    }
+    ++batches_;
+    progress.advance(pairs);
+}
+
+template <typename Exec>
+std::unique_ptr<VoxelSource>
+DeviceRun<Exec>::run(Progress& progress, LevelBuilder* levels, DeviceReport& report) {
+    const auto seconds_since = [](std::chrono::steady_clock::time_point start) {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
+    levels_ = levels;
+    auto start = std::chrono::steady_clock::now();
+    base_ = make_(budget_);
+    upload();
+    report.upload_seconds = seconds_since(start);
+    start = std::chrono::steady_clock::now();
+    count();
+    report.count_seconds = seconds_since(start);
+    start = std::chrono::steady_clock::now();
+    order_ = std::make_unique<BlockOrder>(context_.range, occupied_blocks(counts_));
+    keeper_ = std::make_unique<BlockKeeper>(context_.info(), order_->block.size(), plan_.spool,
+                                            context_.options.spool_dir);
+    if (levels != nullptr) {
+        levels->begin(context_.info(), order_->index,
+                      plan_.spool ? context_.options.spool_dir : "");
+    }
+    std::int64_t pairs = 0;
+    for (const auto& of : counts_) {
+        for (const std::uint32_t n : of) pairs += n;
+    }
+    progress.begin("voxelize", "primitives", pairs);
+    work(static_cast<std::size_t>(device_.streams), plan_work(), progress);
+    report.batch_seconds = seconds_since(start);
+    report.batches = batches_;
+    report.peak_bytes = budget_.peak();
+    return keeper_->finish();
+}
+
+} // namespace heddle

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <heddle/base/progress.h>
+#include <heddle/gpu/device.h>
+#include <heddle/lod/build_levels.h>
+#include <heddle/voxel/voxelize.h>
+
+#include <cstdint>
+#include <memory>
+
+namespace heddle {
+
+/// How the device is used. Nothing is required.
+struct DeviceOptions {
+    std::int64_t memory_bytes =
+        0;           ///< of the device that may be in use at once; 0: 9/10 of what is free
+    int streams = 2; ///< batches that are on their way at once, each by a thread of the host
+    std::int64_t batches = 0;       ///< at least so many; 0: as memory needs
+    std::int64_t vanish_after = -1; ///< of the host executor: launches until its device is gone
+};
+
+/// What a run on the device took.
+struct DeviceReport {
+    std::int64_t peak_bytes = 0; ///< of device memory
+    std::int64_t batches = 0;
+    double upload_seconds = 0.0; ///< geometry to the device, fibers placed
+    double count_seconds = 0.0;  ///< primitives counted by block
+    double batch_seconds = 0.0;  ///< the rest
+};
+
+/// voxelize() by the pipeline of the device, on a CUDA device: the same voxels and levels, bit for bit.
+/// What it does not do: CoverageMode::Mask, FitMode::Last, height maps that displace.
+/// @param levels  built above level 0 too; null: none
+/// @throws Error  as voxelize(); Unsupported: see above; OutOfMemory: `memory_bytes` is below what one
+///                block takes; Device: there is none, or it failed
+[[nodiscard]] std::unique_ptr<VoxelSource> voxelize_on_cuda(const Geometry& geometry,
+                                                            const VoxelizeOptions& options,
+                                                            const VoxelizePlan& plan,
+                                                            const DeviceOptions& device,
+                                                            Progress& progress,
+                                                            LevelBuilder* levels = nullptr,
+                                                            DeviceReport* report = nullptr);
+
+/// The same pipeline on the threads of the host: what machines without a GPU test. Slower than
+/// voxelize().
+[[nodiscard]] std::unique_ptr<VoxelSource>
+voxelize_on_host_executor(const Geometry& geometry,
+                          const VoxelizeOptions& options,
+                          const VoxelizePlan& plan,
+                          const DeviceOptions& device,
+                          Progress& progress,
+                          LevelBuilder* levels = nullptr,
+                          DeviceReport* report = nullptr);
+
+} // namespace heddle
