@@ -1,5 +1,6 @@
 #include <heddle/base/memory.h>
 #include <heddle/cli/commands.h>
+#include <heddle/cli/device_options.h>
 #include <heddle/cli/level_options.h>
 #include <heddle/cli/load.h>
 #include <heddle/cli/progress_bar.h>
@@ -88,6 +89,7 @@ void run_voxelize(const Arguments& arguments, Report& report, ProgressBar& bar) 
         arguments.text("lod") != "naive") {
         options.footprints = 4; // transport through fibers needs them: docs/transport.md
     }
+    const DeviceChoice device = choose_device(arguments, geometry, options, report);
     bar.check();
     bar.begin("plan", "files", 1);
     std::unique_ptr<LevelBuilder> levels_above = level_builder(arguments);
@@ -97,8 +99,9 @@ void run_voxelize(const Arguments& arguments, Report& report, ProgressBar& bar) 
     report_plan(report, plan);
     if (dry_run) return;
 
-    VoxelLevels levels = finish_levels(levels_above.get(),
-                                       voxelize(geometry, options, plan, bar, levels_above.get()));
+    VoxelLevels levels =
+        finish_levels(levels_above.get(), voxelize_where(device, geometry, options, plan, bar,
+                                                         levels_above.get(), report));
     geometry = {}; // its memory is better used by the writer
     write_output([&] { write_vdb(levels, output, bar); });
     bar.finish();
@@ -158,6 +161,7 @@ Command voxelize_command() {
          "peak memory that is kept to"},
         {"--dry-run", "", "", flag(), "", "prints the plan and writes nothing"},
     });
+    add(device_options());
     return {"voxelize", "a .vdb with orientations and coverage, from curves, meshes or volumes",
             options, run_voxelize};
 }

@@ -2,6 +2,7 @@
 
 #include <heddle/device/dense_sums.h>
 #include <heddle/device/gather_fibers_op.h>
+#include <heddle/sggx/direction_sums.h>
 
 #include <algorithm>
 

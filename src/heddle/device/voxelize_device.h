@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 
 namespace heddle {
 
@@ -28,10 +29,14 @@ struct DeviceReport {
     double batch_seconds = 0.0;  ///< the rest
 };
 
+/// Why the device does not do what is asked, though the CPU does: CoverageMode::Mask, FitMode::Last,
+/// height maps that displace. Empty: it does.
+[[nodiscard]] std::string why_not_on_device(const Geometry& geometry,
+                                            const VoxelizeOptions& options);
+
 /// voxelize() by the pipeline of the device, on a CUDA device: the same voxels and levels, bit for bit.
-/// What it does not do: CoverageMode::Mask, FitMode::Last, height maps that displace.
 /// @param levels  built above level 0 too; null: none
-/// @throws Error  as voxelize(); Unsupported: see above; OutOfMemory: `memory_bytes` is below what one
+/// @throws Error  as voxelize(); Unsupported: why_not_on_device(); OutOfMemory: `memory_bytes` is below what one
 ///                block takes; Device: there is none, or it failed
 [[nodiscard]] std::unique_ptr<VoxelSource> voxelize_on_cuda(const Geometry& geometry,
                                                             const VoxelizeOptions& options,

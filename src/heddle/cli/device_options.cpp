@@ -1,0 +1,68 @@
+#include <heddle/cli/device_options.h>
+
+#include <heddle/base/error.h>
+#include <heddle/cli/text.h>
+#include <heddle/gpu/device.h>
+
+#include <string>
+
+namespace heddle::cli {
+
+std::vector<Option> device_options() {
+    return {
+        {"--device", "WHERE", "auto", one_of({"cpu", "cuda", "auto"}), "",
+         "the same bits from all; auto: cuda where there is one and it does what is asked"},
+        {"--device-memory", "BYTES", "(9/10 of what is free)", bytes(), "K, M, G",
+         "memory of the device that is kept to"},
+    };
+}
+
+DeviceChoice choose_device(const Arguments& arguments,
+                           const Geometry& geometry,
+                           const VoxelizeOptions& options,
+                           Report& report) {
+    DeviceChoice choice;
+    const std::string& where = arguments.text("device");
+    const bool memory = arguments.given("device-memory");
+    if (where == "cpu") {
+        if (memory) throw UsageError("--device-memory is of no use with --device cpu");
+        return choice;
+    }
+    const gpu::Device device = gpu::find_device();
+    const std::string cannot = why_not_on_device(geometry, options);
+    if (where == "cuda") {
+        if (device.name.empty()) {
+            throw Error(ErrorCode::Device, str("--device cuda: ", device.why),
+                        "use --device cpu: the same bits");
+        }
+        if (!cannot.empty()) {
+            throw Error(ErrorCode::Unsupported, str("--device cuda: ", cannot),
+                        "use --device cpu");
+        }
+    }
+    choice.cuda = !device.name.empty() && cannot.empty();
+    if (!choice.cuda) return choice;
+    choice.options.memory_bytes =
+        memory ? arguments.bytes("device-memory") : device.free_bytes / 10 * 9;
+    report.text("device", device.name);
+    return choice;
+}
+
+std::unique_ptr<VoxelSource> voxelize_where(const DeviceChoice& choice,
+                                            const Geometry& geometry,
+                                            const VoxelizeOptions& options,
+                                            const VoxelizePlan& plan,
+                                            Progress& progress,
+                                            LevelBuilder* levels,
+                                            Report& report) {
+    if (!choice.cuda) return voxelize(geometry, options, plan, progress, levels);
+    DeviceReport took;
+    std::unique_ptr<VoxelSource> made =
+        voxelize_on_cuda(geometry, options, plan, choice.options, progress, levels, &took);
+    report.bytes("peak device memory", took.peak_bytes);
+    report.count("device batches", took.batches);
+    report.seconds("upload", took.upload_seconds);
+    return made;
+}
+
+} // namespace heddle::cli
