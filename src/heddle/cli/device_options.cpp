@@ -36,8 +36,7 @@ DeviceChoice choose_device(const Arguments& arguments,
                         "use --device cpu: the same bits");
         }
         if (!cannot.empty()) {
-            throw Error(ErrorCode::Unsupported, str("--device cuda: ", cannot),
-                        "use --device cpu");
+            throw Error(ErrorCode::Unsupported, str("--device cuda: ", cannot), "use --device cpu");
         }
     }
     choice.cuda = !device.name.empty() && cannot.empty();

@@ -77,6 +77,7 @@ private:
         gpu::Array<std::uint32_t> slot_of_block;
     };
 
+    [[nodiscard]] std::unique_ptr<Exec> make_exec();
     void upload();
     void count();
     [[nodiscard]] std::vector<BatchRange> plan_work() const;
@@ -89,6 +90,7 @@ private:
     DeviceOptions device_;
     MakeExec make_;
     gpu::Budget budget_;
+    gpu::StageTimes times_;
     std::unique_ptr<Exec> base_; ///< holds what all streams read
     DeviceScene scene_;
     FiberArrays fibers_;
@@ -99,6 +101,13 @@ private:
     LevelBuilder* levels_ = nullptr;
     std::atomic<std::int64_t> batches_{0};
 };
+
+template <typename Exec>
+std::unique_ptr<Exec> DeviceRun<Exec>::make_exec() {
+    std::unique_ptr<Exec> exec = make_(budget_);
+    if (device_.time_stages) exec->time_stages(&times_);
+    return exec;
+}
 
 template <typename Exec>
 void DeviceRun<Exec>::upload() {
@@ -179,7 +188,7 @@ void DeviceRun<Exec>::work(std::size_t streams,
     const auto lane = [&] {
         error.guard([&] {
             Lane mine;
-            mine.exec = make_(budget_);
+            mine.exec = make_exec();
             mine.exec->set_stage("bin");
             mine.slot_of_block = mine.exec->template make<std::uint32_t>(context_.range.count());
             for (std::size_t b = next++; b < batches.size() && !error.failed(); b = next++) {
@@ -225,7 +234,7 @@ DeviceRun<Exec>::run(Progress& progress, LevelBuilder* levels, DeviceReport& rep
     };
     levels_ = levels;
     auto start = std::chrono::steady_clock::now();
-    base_ = make_(budget_);
+    base_ = make_exec();
     upload();
     report.upload_seconds = seconds_since(start);
     start = std::chrono::steady_clock::now();
@@ -248,6 +257,7 @@ DeviceRun<Exec>::run(Progress& progress, LevelBuilder* levels, DeviceReport& rep
     report.batch_seconds = seconds_since(start);
     report.batches = batches_;
     report.peak_bytes = budget_.peak();
+    report.stages = times_.all();
     return keeper_->finish();
 }
 

@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace heddle {
 
@@ -17,6 +19,7 @@ struct DeviceOptions {
         0;           ///< of the device that may be in use at once; 0: 9/10 of what is free
     int streams = 2; ///< batches that are on their way at once, each by a thread of the host
     std::int64_t batches = 0;       ///< at least so many; 0: as memory needs
+    bool time_stages = false;       ///< each launch is waited for: slower as a whole
     std::int64_t vanish_after = -1; ///< of the host executor: launches until its device is gone
 };
 
@@ -24,9 +27,10 @@ struct DeviceOptions {
 struct DeviceReport {
     std::int64_t peak_bytes = 0; ///< of device memory
     std::int64_t batches = 0;
-    double upload_seconds = 0.0; ///< geometry to the device, fibers placed
-    double count_seconds = 0.0;  ///< primitives counted by block
-    double batch_seconds = 0.0;  ///< the rest
+    double upload_seconds = 0.0;                        ///< geometry to the device, fibers placed
+    double count_seconds = 0.0;                         ///< primitives counted by block
+    double batch_seconds = 0.0;                         ///< the rest
+    std::vector<std::pair<std::string, double>> stages; ///< seconds of launches, with time_stages
 };
 
 /// Why the device does not do what is asked, though the CPU does: CoverageMode::Mask, FitMode::Last,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <heddle/gpu/budget.h>
+#include <heddle/gpu/stage_times.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -39,6 +40,11 @@ public:
     void set_stage(std::string_view name) { stage_ = name; }
     [[nodiscard]] std::string_view stage() const { return stage_; }
     [[nodiscard]] Budget& budget() const { return budget_; }
+    /// From now on each launch is waited for and its time added. @param times  null: no more
+    void time_stages(StageTimes* times) { times_ = times; }
+
+protected:
+    StageTimes* times_ = nullptr;
 
 private:
     virtual void* allocate(std::size_t bytes) = 0;

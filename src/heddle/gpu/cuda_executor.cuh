@@ -76,8 +76,10 @@ public:
                         str(stage(), ": ", n, " items are too many for one launch"),
                         "lower --device-memory");
         }
+        const StageTimer timer = begin_timing();
         for_each_kernel<<<static_cast<unsigned>(blocks), kThreads, 0, stream_>>>(op, n);
         check(cudaGetLastError(), "launch");
+        if (times_ != nullptr) wait();
     }
     template <typename In, typename Out>
     void offsets(const In* count, Out* first, std::size_t n) {
@@ -86,6 +88,7 @@ public:
                         str(stage(), ": ", n, " counts are too many for one scan"),
                         "lower --device-memory");
         }
+        const StageTimer timer = begin_timing();
         check(cudaMemsetAsync(first, 0, sizeof(Out), stream_), "clearing");
         if (n == 0) return;
         std::size_t bytes = 0;
@@ -97,9 +100,14 @@ public:
         check(scan(nullptr), "scan");
         const Array<std::byte> work = make<std::byte>(bytes);
         check(scan(work.data()), "scan");
+        if (times_ != nullptr) wait();
     }
 
 private:
+    [[nodiscard]] StageTimer begin_timing() {
+        if (times_ != nullptr) wait(); // what was launched before is of its own stage
+        return StageTimer(times_, stage());
+    }
     void check(cudaError_t status, const char* what) const {
         if (status == cudaSuccess) return;
         const bool memory = status == cudaErrorMemoryAllocation;

@@ -61,6 +61,7 @@ public:
     template <typename Op>
     void for_each(std::size_t n, const Op& op) {
         launch();
+        const StageTimer timer(times_, stage());
         const std::size_t share = n / (static_cast<std::size_t>(thread_count()) * 8);
         parallel_chunks(n, std::clamp<std::size_t>(share, 1, 1024),
                         [&](std::size_t begin, std::size_t end) {
@@ -71,6 +72,7 @@ public:
     template <typename In, typename Out>
     void offsets(const In* count, Out* first, std::size_t n) {
         launch();
+        const StageTimer timer(times_, stage());
         Out sum{};
         for (std::size_t i = 0; i < n; ++i) {
             first[i] = sum;
