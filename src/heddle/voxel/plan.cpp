@@ -317,10 +317,7 @@ void plan_memory(VoxelizePlan& plan, const VoxelizeContext& context, const Bins&
 
 } // namespace
 
-VoxelizePlan plan_voxelize(const Geometry& geometry,
-                           const VoxelizeOptions& options,
-                           const Progress& progress,
-                           BlockVisitor* visitor) {
+VoxelizePlan plan_range(const Geometry& geometry, const VoxelizeOptions& options) {
     check_options(options);
     check_geometry(geometry);
     const Bounds whole = bounds_of(geometry);
@@ -339,11 +336,19 @@ VoxelizePlan plan_voxelize(const Geometry& geometry,
     }
     choose_range(plan, geometry.name);
     check_blocks(BlockRange(plan.voxel_lo, plan.voxel_hi), options);
+    plan.block_voxels = kBlockVoxels;
+    return plan;
+}
+
+VoxelizePlan plan_voxelize(const Geometry& geometry,
+                           const VoxelizeOptions& options,
+                           const Progress& progress,
+                           BlockVisitor* visitor) {
+    VoxelizePlan plan = plan_range(geometry, options);
     VoxelizeContext context(geometry, options, plan.lattice, plan.voxel_lo, plan.voxel_hi);
     const Bins bins(context.fibers, context.triangles, context.range, progress);
     plan.fields = context.fit.fields;
     if (visitor != nullptr) context.fit.fields.masks = true;
-    plan.block_voxels = kBlockVoxels;
     plan.blocks = static_cast<std::int64_t>(bins.blocks().size());
     plan.primitives =
         static_cast<std::int64_t>(context.fibers.span_count() + context.triangles.count());

@@ -1,0 +1,35 @@
+#include "copy_bandwidth.h"
+
+#include <heddle/gpu/cuda_executor.cuh>
+#include <heddle/gpu/device.h>
+
+#include <chrono>
+
+namespace heddle::check {
+namespace {
+
+struct CopyOp {
+    const ulonglong2* from;
+    ulonglong2* to;
+    HEDDLE_D void operator()(std::size_t i) const { to[i] = from[i]; }
+};
+
+} // namespace
+
+double copy_bandwidth() {
+    if (gpu::find_device().name.empty()) return 0.0;
+    constexpr std::size_t kItems = std::size_t{1} << 26;
+    gpu::Budget budget(std::int64_t{4} << 30);
+    gpu::CudaExecutor exec(budget);
+    const auto from = exec.make_zero<ulonglong2>(kItems);
+    const auto to = exec.make_zero<ulonglong2>(kItems);
+    exec.for_each(kItems, CopyOp{from.data(), to.data()});
+    exec.wait();
+    const auto start = std::chrono::steady_clock::now();
+    for (int i = 0; i < 10; ++i) exec.for_each(kItems, CopyOp{from.data(), to.data()});
+    exec.wait();
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+    return 10.0 * 2.0 * 16.0 * static_cast<double>(kItems) / spent.count() * 1e-9;
+}
+
+} // namespace heddle::check
