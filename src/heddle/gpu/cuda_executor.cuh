@@ -2,6 +2,7 @@
 
 #include <heddle/base/error.h>
 #include <heddle/gpu/array.h>
+#include <heddle/gpu/staging.cuh>
 
 #include <cub/device/device_scan.cuh>
 #include <cuda_runtime.h>
@@ -44,17 +45,26 @@ public:
         upload(out.data(), host);
         return out;
     }
-    /// Fastest from pinned memory (gpu/pinned.h).
+    /// `from` may be changed when it returns.
     template <typename T>
     void upload(T* to, std::span<const T> from) {
-        if (from.empty()) return;
-        check(cudaMemcpyAsync(to, from.data(), from.size_bytes(), cudaMemcpyHostToDevice, stream_),
+        const std::size_t bytes = from.size_bytes();
+        if (bytes == 0) return;
+        check(bytes < Staging::kLeast
+                  ? cudaMemcpyAsync(to, from.data(), bytes, cudaMemcpyHostToDevice, stream_)
+                  : staging_.upload(reinterpret_cast<std::byte*>(to),
+                                    reinterpret_cast<const std::byte*>(from.data()), bytes,
+                                    stream_),
               "upload");
     }
     template <typename T>
     void download(std::span<T> to, const T* from) {
-        if (to.empty()) return;
-        check(cudaMemcpyAsync(to.data(), from, to.size_bytes(), cudaMemcpyDeviceToHost, stream_),
+        const std::size_t bytes = to.size_bytes();
+        if (bytes == 0) return;
+        check(bytes < Staging::kLeast
+                  ? cudaMemcpyAsync(to.data(), from, bytes, cudaMemcpyDeviceToHost, stream_)
+                  : staging_.download(reinterpret_cast<std::byte*>(to.data()),
+                                      reinterpret_cast<const std::byte*>(from), bytes, stream_),
               "download");
         wait();
     }
@@ -125,6 +135,7 @@ private:
     void release(void* data) noexcept override { cudaFreeAsync(data, stream_); }
 
     cudaStream_t stream_ = nullptr;
+    Staging staging_;
 };
 
 } // namespace heddle::gpu
