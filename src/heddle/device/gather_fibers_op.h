@@ -209,20 +209,13 @@ private:
                        float radius,
                        const YarnPair& yarn,
                        const DenseLobe& to) const {
-        const float length = to_float(lane.length);
+        const float length = lane.length.v;
         if (!(length > 0.0f)) return;
-        const Chord chord{to_vec(start),         to_vec(lane.dir),     length,
-                          to_float(lane.before), to_float(lane.after), radius};
+        const Chord chord{to_vec(start), to_vec(lane.dir), length,
+                          lane.before.v, lane.after.v,     radius};
         batch.add_chord(yarn.slot, chord, to_vec(lane.bend), yarn.cubic.anchor, to);
     }
-    HEDDLE_HD static float to_float(Real x) {
-        float out;
-        x.store(&out);
-        return out;
-    }
-    HEDDLE_HD static Vec3f to_vec(const LanePoint<Real>& p) {
-        return {to_float(p.x), to_float(p.y), to_float(p.z)};
-    }
+    HEDDLE_HD static Vec3f to_vec(const LanePoint<Real>& p) { return {p.x.v, p.y.v, p.z.v}; }
 
     /// Where a fiber lies at the samples of a run.
     class FiberSampler {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <heddle/voxel/chord_body.h>
 #include <heddle/voxel/expand_op.h>
 #include <heddle/voxel/fiber_sums.h>
 #include <heddle/voxel/fiber_tile.h>

@@ -1,8 +1,10 @@
+#include <heddle/voxel/chord_op.h>
 #include <heddle/voxel/gather_kernels.h>
 
 #include <gtest/gtest.h>
 
 #include <array>
+#include <bit>
 #include <cstring>
 #include <memory>
 #include <random>
@@ -100,6 +102,47 @@ TEST(GatherKernels, PlainCodeAndAvx2GiveTheSameBits) {
 #endif
             }
             expect_same_sums(*plain, *wide);
+        }
+    }
+}
+
+/// The chords, one by one.
+void gather_each(const ChordArrays& c, const GatherTarget& target) {
+    const ChordSpace space(target.units, target.size);
+    const FiberSums sums{target.block, target.paint};
+    for (int i = 0; i < c.count; ++i) {
+        const auto vec = [&](const auto* const(&of)[3]) {
+            return Vec3{of[0][i], of[1][i], of[2][i]};
+        };
+        gather_chord_op({vec(c.start), vec(c.dir), vec(c.bend), c.length[i], c.before[i],
+                         c.after[i], c.radius[i]},
+                        vec(c.anchor), space, sums);
+    }
+}
+
+TEST(GatherKernels, OneChordAtATimeGivesTheBitsOfEight) {
+    const RandomChords chords(11);
+    for (const Vec3d voxel : {Vec3d{0.1, 0.1, 0.1}, Vec3d{0.1, 0.25, 0.4}}) {
+        for (const int subvoxels : {1, 2, 4, 8}) {
+            const LatticeUnits units(Lattice{.voxel_size = voxel, .subvoxels = subvoxels});
+            const Vec3i size{kBlockVoxels, 17, kBlockVoxels};
+            const auto eight = std::make_unique<BlockSums>(false);
+            const auto each = std::make_unique<BlockSums>(false);
+            eight->reset({0, 0, 0}, size);
+            each->reset({0, 0, 0}, size);
+            const int shift = std::countr_zero(static_cast<unsigned>(subvoxels));
+            portable::gather(chords.arrays(), {*eight, units, shift, size, {}});
+            gather_each(chords.arrays(), {*each, units, shift, size, {}});
+            ASSERT_EQ(eight->count(), each->count());
+            ASSERT_GT(eight->count(), 100);
+            for (int cell = 0; cell < BlockSums::kVoxels; ++cell) {
+                const int x = cell / (kBlockVoxels * kBlockVoxels);
+                const int y = cell / kBlockVoxels % kBlockVoxels;
+                const VoxelSums* p = eight->find(x, y, cell % kBlockVoxels);
+                const VoxelSums* q = each->find(x, y, cell % kBlockVoxels);
+                ASSERT_EQ(p == nullptr, q == nullptr);
+                ASSERT_TRUE(p == nullptr || std::memcmp(p, q, sizeof(VoxelSums)) == 0);
+            }
         }
     }
 }

@@ -150,4 +150,11 @@ inline void add_scaled(void* sums, const float* row, float scale) {
     _mm256_storeu_si256(p + 1, _mm256_add_epi64(_mm256_loadu_si256(p + 1), high));
 }
 
+/// What templates over lanes take.
+struct Lanes {
+    using Real = avx2::Real;
+    using Int = avx2::Int;
+    using Mask = avx2::Mask;
+};
+
 } // namespace heddle::avx2

@@ -180,4 +180,11 @@ inline void add_scaled(void* sums, const float* row, float scale) {
     }
 }
 
+/// What templates over lanes take.
+struct Lanes {
+    using Real = portable::Real;
+    using Int = portable::Int;
+    using Mask = portable::Mask;
+};
+
 } // namespace heddle::portable

@@ -74,4 +74,26 @@ inline std::map<Key, Content> content_of(const VoxelSource& source) {
     return content;
 }
 
+/// Expects that two blocks store the same, byte for byte.
+inline void expect_same_block(const VoxelBlock& a, const VoxelBlock& b) {
+    ASSERT_EQ(a.leaves.size(), b.leaves.size());
+    for (std::size_t i = 0; i < a.leaves.size(); ++i) {
+        ASSERT_EQ(a.leaves[i].origin, b.leaves[i].origin);
+        ASSERT_EQ(a.leaves[i].active, b.leaves[i].active);
+        ASSERT_EQ(a.leaves[i].first_voxel, b.leaves[i].first_voxel);
+        ASSERT_EQ(a.leaves[i].first_lobe, b.leaves[i].first_lobe);
+    }
+    ASSERT_TRUE(a.coverage == b.coverage);
+    ASSERT_TRUE(a.lobe_count == b.lobe_count);
+    ASSERT_TRUE(a.lobes == b.lobes);
+    ASSERT_TRUE(a.maps == b.maps);
+    ASSERT_TRUE(a.tangents == b.tangents);
+    ASSERT_TRUE(a.merge_order == b.merge_order);
+    ASSERT_TRUE(a.columns == b.columns);
+    ASSERT_TRUE(a.moments == b.moments);
+    ASSERT_TRUE(a.map_sums == b.map_sums);
+    ASSERT_TRUE(a.footprints == b.footprints);
+    ASSERT_TRUE(a.correlation == b.correlation);
+}
+
 } // namespace heddle::test

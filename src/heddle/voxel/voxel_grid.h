@@ -167,6 +167,13 @@ struct VoxelBlock {
     }
 };
 
+/// What only levels are built from goes when they are.
+inline void drop_sums(VoxelBlock& block) {
+    block.columns = {};
+    block.moments = {};
+    block.map_sums = {};
+}
+
 /// How much one level holds.
 struct LevelSize {
     std::int64_t leaves = 0; ///< of 8^3 voxels with at least one active

@@ -28,13 +28,6 @@ struct SortedBlocks {
     }
 };
 
-/// What only levels are built from goes when they are.
-void drop_sums(VoxelBlock& block) {
-    block.columns = {};
-    block.moments = {};
-    block.map_sums = {};
-}
-
 } // namespace
 
 std::unique_ptr<VoxelSource> voxelize(const Geometry& geometry,

@@ -1,0 +1,63 @@
+#include <heddle/device/voxelize_device.h>
+
+#include <heddle/base/memory.h>
+#include <heddle/device/device_run.h>
+#include <heddle/gpu/host_executor.h>
+
+namespace heddle {
+
+std::string why_not_on_device(const Geometry& geometry, const VoxelizeOptions& options) {
+    if (options.coverage == CoverageMode::Mask) return "coverage 'mask' is made on the CPU alone";
+    if (options.fit == FitMode::Last) return "fit 'last' is made on the CPU alone";
+    if (!geometry.meshes.empty()) return "triangles are voxelized on the CPU alone";
+    return {};
+}
+
+void check_device_options(const Geometry& geometry,
+                          const VoxelizeOptions& options,
+                          const DeviceOptions& device) {
+    const std::string cannot = why_not_on_device(geometry, options);
+    if (!cannot.empty()) {
+        throw Error(ErrorCode::Unsupported, "voxelize: " + cannot, "use the CPU");
+    }
+    if (device.memory_bytes < 0 || device.streams < 1 || device.batches < 0) {
+        throw Error(ErrorCode::InvalidArgument,
+                    str("voxelize: ", device.memory_bytes, " bytes of device memory, ",
+                        device.streams, " streams, ", device.batches, " batches"),
+                    "use at least one stream");
+    }
+}
+
+std::unique_ptr<VoxelSource> voxelize_on_host_executor(const Geometry& geometry,
+                                                       const VoxelizeOptions& options,
+                                                       const VoxelizePlan& plan,
+                                                       const DeviceOptions& device,
+                                                       Progress& progress,
+                                                       LevelBuilder* levels,
+                                                       DeviceReport* report) {
+    check_device_options(geometry, options, device);
+    DeviceOptions with_memory = device;
+    if (device.memory_bytes == 0) with_memory.memory_bytes = available_bytes() / 10 * 9;
+    const VoxelizeContext context(geometry, options, plan.lattice, plan.voxel_lo, plan.voxel_hi);
+    DeviceRun<gpu::HostExecutor> run(context, plan, with_memory, [&](gpu::Budget& budget) {
+        return std::make_unique<gpu::HostExecutor>(budget, device.vanish_after);
+    });
+    DeviceReport ignored;
+    return run.run(progress, levels, report != nullptr ? *report : ignored);
+}
+
+#if !HEDDLE_HAS_CUDA
+
+std::unique_ptr<VoxelSource> voxelize_on_cuda(const Geometry&,
+                                              const VoxelizeOptions&,
+                                              const VoxelizePlan&,
+                                              const DeviceOptions&,
+                                              Progress&,
+                                              LevelBuilder*,
+                                              DeviceReport*) {
+    throw Error(ErrorCode::Device, "voxelize: " + gpu::find_device().why, "use the CPU");
+}
+
+#endif
+
+} // namespace heddle

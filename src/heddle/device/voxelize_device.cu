@@ -1,0 +1,28 @@
+#include <heddle/device/voxelize_device.h>
+
+#include <heddle/device/device_run.h>
+#include <heddle/gpu/cuda_executor.cuh>
+
+namespace heddle {
+
+std::unique_ptr<VoxelSource> voxelize_on_cuda(const Geometry& geometry,
+                                              const VoxelizeOptions& options,
+                                              const VoxelizePlan& plan,
+                                              const DeviceOptions& device,
+                                              Progress& progress,
+                                              LevelBuilder* levels,
+                                              DeviceReport* report) {
+    check_device_options(geometry, options, device);
+    const gpu::Device found = gpu::find_device();
+    if (found.name.empty()) throw Error(ErrorCode::Device, "voxelize: " + found.why, "use the CPU");
+    DeviceOptions with_memory = device;
+    if (device.memory_bytes == 0) with_memory.memory_bytes = found.free_bytes / 10 * 9;
+    const VoxelizeContext context(geometry, options, plan.lattice, plan.voxel_lo, plan.voxel_hi);
+    DeviceRun<gpu::CudaExecutor> run(context, plan, with_memory, [](gpu::Budget& budget) {
+        return std::make_unique<gpu::CudaExecutor>(budget);
+    });
+    DeviceReport ignored;
+    return run.run(progress, levels, report != nullptr ? *report : ignored);
+}
+
+} // namespace heddle
