@@ -4,7 +4,7 @@
 #include <heddle/base/parallel.h>
 #include <heddle/base/random.h>
 #include <heddle/voxel/lattice_units.h>
-#include <heddle/voxel/surface_sample.h>
+#include <heddle/voxel/surface_source.h>
 
 #include <algorithm>
 #include <cmath>
@@ -53,13 +53,14 @@ Vec3d point_on(std::uint64_t id, std::int64_t i) {
 
 struct Surfaces {
     const Geometry& geometry;
-    SurfaceSampler sampler;
+    SurfaceSource source;
     Vec3d voxel_size;
     double point_area;
 
     void walk(const TriangleId& id, std::vector<Directed>& out) const {
         const Mesh& mesh = geometry.meshes[id.mesh];
-        const TriangleSetup setup = sampler.setup(mesh, id.triangle);
+        const TriangleSetup setup =
+            set_up_triangle(source.view(), source.view_of(mesh), id.triangle);
         const auto& [a, b, c] = mesh.triangles[id.triangle];
         const auto count = static_cast<std::int64_t>(std::ceil(id.area / point_area));
         const auto weight = static_cast<float>(id.area / static_cast<double>(count));
@@ -74,7 +75,7 @@ struct Surfaces {
                                  static_cast<float>(w.x),
                                  static_cast<float>(w.y),
                                  static_cast<float>(w.z)};
-            const SurfaceSample s = sampler.sample(setup, hit);
+            const SurfaceSample s = sample_at(source.view().seed, setup, hit);
             if (!s.covered) continue;
             const Vec3d p = w.x * to_double(mesh.positions[a]) +
                             w.y * to_double(mesh.positions[b]) + w.z * to_double(mesh.positions[c]);
@@ -99,10 +100,10 @@ void walk_triangles(const Geometry& geometry,
                     const TakeDirections& take) {
     const double edge = spacing * LatticeUnits(lattice).unit;
     constexpr std::uint64_t kSeed = 71; // not the voxelizer's
-    const Surfaces surfaces{geometry, SurfaceSampler(geometry, {edge, edge, edge}, kSeed),
+    const Surfaces surfaces{geometry, SurfaceSource(geometry, {edge, edge, edge}, kSeed),
                             lattice.voxel_size, edge * edge};
     for (const Mesh& mesh : geometry.meshes) {
-        if (!surfaces.sampler.is_displaced(mesh)) continue;
+        if (!surfaces.source.view_of(mesh).displaced()) continue;
         throw Error(ErrorCode::Unsupported, "a displaced surface", "walk plain ones");
     }
     const std::vector<TriangleId> list = list_triangles(geometry);

@@ -2,7 +2,7 @@
 
 #include <heddle/base/parallel.h>
 #include <heddle/voxel/bin_op.h>
-#include <heddle/voxel/surface_sample.h>
+#include <heddle/voxel/surface_source.h>
 
 #include <algorithm>
 #include <atomic>
@@ -17,19 +17,8 @@ constexpr std::size_t kGrain = 1024;
 TriangleSource::TriangleSource(const Geometry& geometry) : geometry_(geometry), first_(1, 0) {
     for (const Mesh& mesh : geometry.meshes) {
         first_.push_back(first_.back() + mesh.triangles.size());
-        const Material& m = geometry.materials[mesh.material];
-        const auto map = static_cast<std::size_t>(m.height_map);
-        const bool moves = m.height_map >= 0 && map < geometry.textures.size() && !mesh.uvs.empty();
-        // heights are computed in float: a rounding more than the largest of them
-        displacement_.push_back(moves ? max_displacement(m, geometry.textures[map]) * (1.0 + 1e-6)
-                                      : 0.0);
+        displacement_.push_back(max_displacement(geometry, mesh));
     }
-}
-
-TriangleSource::Place TriangleSource::place(std::uint64_t triangle) const {
-    const auto mesh = std::upper_bound(first_.begin() + 1, first_.end(), triangle) - 1;
-    return {static_cast<std::uint32_t>(mesh - first_.begin()),
-            static_cast<std::uint32_t>(triangle - *mesh)};
 }
 
 template <typename Visit>
@@ -49,7 +38,7 @@ void Bins::visit_pairs(const Progress& progress, const Visit& visit) const {
     parallel_chunks(triangles_.count(), kGrain, [&](std::size_t begin, std::size_t end) {
         progress.check();
         for (std::size_t t = begin; t < end; ++t) {
-            const TriangleSource::Place at = triangles_.place(t);
+            const TrianglePlace at = triangles_.place(t);
             const Mesh& mesh = triangles_.geometry().meshes[at.mesh];
             const auto [a, b, c] = mesh.triangles[at.triangle];
             const Vec3f corners[3] = {mesh.positions[a], mesh.positions[b], mesh.positions[c]};

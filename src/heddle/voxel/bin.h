@@ -3,6 +3,7 @@
 #include <heddle/base/progress.h>
 #include <heddle/voxel/block_range.h>
 #include <heddle/voxel/fiber_source.h>
+#include <heddle/voxel/surface_view.h>
 
 #include <cstdint>
 #include <span>
@@ -20,11 +21,11 @@ class TriangleSource {
 public:
     explicit TriangleSource(const Geometry& geometry);
     [[nodiscard]] std::uint64_t count() const { return first_.back(); }
-    struct Place {
-        std::uint32_t mesh;
-        std::uint32_t triangle;
-    };
-    [[nodiscard]] Place place(std::uint64_t triangle) const;
+    [[nodiscard]] TrianglePlace place(std::uint64_t triangle) const {
+        const std::uint64_t mesh = range_of(first_.data(), displacement_.size(), triangle);
+        return {static_cast<std::uint32_t>(mesh),
+                static_cast<std::uint32_t>(triangle - first_[mesh])};
+    }
     [[nodiscard]] const Geometry& geometry() const { return geometry_; }
     /// How far height maps move the mesh's points at most, scene units.
     [[nodiscard]] double displacement(std::uint32_t mesh) const { return displacement_[mesh]; }

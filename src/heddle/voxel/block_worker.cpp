@@ -69,7 +69,7 @@ BlockWorker::BlockWorker(const VoxelizeContext& context)
     : context_(context),
       sums_(context.fit.fields.map_sums()),
       fibers_(context.fibers, context.options),
-      triangles_(context.triangles, context.surfaces, context.units, context.options.fit) {}
+      triangles_(context.surfaces, context.units, context.options.fit) {}
 
 BlockCounts BlockWorker::run(std::uint64_t block,
                              std::span<const Primitive> primitives,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <heddle/base/platform.h>
 #include <heddle/base/vec.h>
 #include <heddle/geom/mesh.h>
 #include <heddle/voxel/triangle_scan.h>
@@ -56,10 +57,10 @@ struct Row {
 /// Columns [lo, hi]; empty if lo > hi.
 struct Range {
     std::int64_t lo = 0, hi = -1;
-    [[nodiscard]] bool empty() const { return lo > hi; }
+    [[nodiscard]] HEDDLE_HD bool empty() const { return lo > hi; }
 };
 
-[[nodiscard]] inline Range join(Range a, Range b) {
+[[nodiscard]] HEDDLE_HD inline Range join(Range a, Range b) {
     if (a.empty()) return b;
     if (b.empty()) return a;
     return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)};
@@ -77,7 +78,7 @@ namespace displace_detail {
 /// The barycentric grid of one triangle: row r in [0, n], column c in [0, r]; vertex 0 is row 0.
 class Grid {
 public:
-    Grid(const DisplaceTriangle& t, Vec3d subvoxel_size) : t_(t), size_(subvoxel_size) {
+    HEDDLE_HD Grid(const DisplaceTriangle& t, Vec3d subvoxel_size) : t_(t), size_(subvoxel_size) {
         for (int v = 0; v < 3; ++v) corner_[v] = to_lattice(t.p[index(v)], subvoxel_size);
         for (int e = 0; e < 3; ++e) {
             int a = e, b = (e + 1) % 3;
@@ -87,10 +88,10 @@ public:
         }
     }
 
-    [[nodiscard]] std::int64_t rows() const { return n_; }
+    [[nodiscard]] HEDDLE_HD std::int64_t rows() const { return n_; }
 
     /// Columns of row `r` whose undisplaced points may lie within `box`.
-    [[nodiscard]] Range columns_in(std::int64_t r, Vec3d lo, Vec3d hi) const {
+    [[nodiscard]] HEDDLE_HD Range columns_in(std::int64_t r, Vec3d lo, Vec3d hi) const {
         if (r < 0 || r > n_) return {};
         const double down = static_cast<double>(r) / static_cast<double>(n_);
         const Vec3d from = corner_[0] + (corner_[1] - corner_[0]) * down;
@@ -111,7 +112,9 @@ public:
     }
 
     template <typename Height>
-    [[nodiscard]] Vertex vertex(std::int64_t r, std::int64_t c, const Height& height) const {
+    [[nodiscard]] HEDDLE_HD Vertex vertex(std::int64_t r,
+                                          std::int64_t c,
+                                          const Height& height) const {
         std::array<double, 3> b;
         if (c == 0) {
             b = edge_point(0, 0, r);
@@ -133,20 +136,21 @@ private:
         std::int64_t pieces = 1;
     };
 
-    static std::size_t index(int v) { return static_cast<std::size_t>(v); }
+    HEDDLE_HD static std::size_t index(int v) { return static_cast<std::size_t>(v); }
 
-    static bool comes_first(Vec3f a, Vec3f b) {
+    HEDDLE_HD static bool comes_first(Vec3f a, Vec3f b) {
         if (a.x != b.x) return a.x < b.x;
         if (a.y != b.y) return a.y < b.y;
         return a.z < b.z;
     }
 
-    static std::int64_t pieces_of(Vec3d edge) {
+    HEDDLE_HD static std::int64_t pieces_of(Vec3d edge) {
         return std::max<std::int64_t>(1, -floor_to_int(-length(edge)));
     }
 
     /// Point `k` of `n_` along edge `e` counted from vertex `from`, moved to the edge's own points.
-    [[nodiscard]] std::array<double, 3> edge_point(int e, int from, std::int64_t k) const {
+    [[nodiscard]] HEDDLE_HD std::array<double, 3>
+    edge_point(int e, int from, std::int64_t k) const {
         const Edge& edge = edge_[e];
         const std::int64_t along = edge.a == from ? k : n_ - k;
         const std::int64_t m = (2 * along * edge.pieces + n_) / (2 * n_);
@@ -159,7 +163,7 @@ private:
     /// Sum of the vertices' values. A vertex without weight is left out and two are added in either
     /// order with the same result, so a point of an edge has one value, whoever computes it.
     template <typename Value>
-    static double blend(const std::array<double, 3>& b, const Value& value) {
+    HEDDLE_HD static double blend(const std::array<double, 3>& b, const Value& value) {
         double sum = 0.0;
         for (std::size_t v = 0; v < 3; ++v)
             if (b[v] != 0.0) sum += b[v] * value(v);
@@ -167,7 +171,8 @@ private:
     }
 
     template <typename Height>
-    [[nodiscard]] Vertex displaced(const std::array<double, 3>& b, const Height& height) const {
+    [[nodiscard]] HEDDLE_HD Vertex displaced(const std::array<double, 3>& b,
+                                             const Height& height) const {
         const auto component = [&](const std::array<Vec3f, 3>& v) {
             return Vec3d{blend(b, [&](std::size_t i) { return double{v[i].x}; }),
                          blend(b, [&](std::size_t i) { return double{v[i].y}; }),
@@ -196,6 +201,29 @@ private:
     return displace_detail::Grid(t, subvoxel_size).rows();
 }
 
+namespace displace_detail {
+
+/// What undisplaced points of micro-triangles that touch a box lie in; lattice coordinates.
+struct ReachBox {
+    Vec3d lo, hi;
+
+    HEDDLE_HD ReachBox(const SubvoxelBox& box, double reach, Vec3d subvoxel_size) {
+        // A micro-triangle in the box has all its undisplaced corners within the reach and its own
+        // size of it: under 3 subvoxels, edge points that moved included.
+        for (int a = 0; a < 3; ++a) {
+            const double margin = reach / subvoxel_size[a] + 3.0;
+            lo[a] = static_cast<double>(box.lo[a]) - margin;
+            hi[a] = static_cast<double>(box.hi[a]) + margin;
+        }
+    }
+};
+
+HEDDLE_HD inline MicroTriangle micro(const Vertex& a, const Vertex& b, const Vertex& c) {
+    return {{a.p, b.p, c.p}, {a.b, b.b, c.b}};
+}
+
+} // namespace displace_detail
+
 /// Splits and displaces a triangle, and calls `emit(const MicroTriangle&)` for at least all of the
 /// micro-triangles that touch `box`. A micro-triangle does not depend on the box.
 ///
@@ -209,18 +237,11 @@ void displace_triangle(const DisplaceTriangle& t,
                        double reach,
                        const SubvoxelBox& box,
                        const Height& height,
-                       const Emit& emit,
+                       Emit&& emit,
                        DisplaceScratch& scratch) {
     using namespace displace_detail;
     const Grid grid(t, subvoxel_size);
-    // A micro-triangle in the box has all its undisplaced corners within the reach and its own size
-    // of it: under 3 subvoxels, edge points that moved included.
-    Vec3d lo, hi;
-    for (int a = 0; a < 3; ++a) {
-        const double margin = reach / subvoxel_size[a] + 3.0;
-        lo[a] = static_cast<double>(box.lo[a]) - margin;
-        hi[a] = static_cast<double>(box.hi[a]) + margin;
-    }
+    const ReachBox near(box, reach, subvoxel_size);
     const auto fill = [&](Row& row, std::int64_t r, Range range) {
         row.first = std::max<std::int64_t>(0, range.lo - 1);
         row.vertices.clear();
@@ -228,24 +249,56 @@ void displace_triangle(const DisplaceTriangle& t,
         for (std::int64_t c = row.first; c <= std::min(r, range.hi + 1); ++c)
             row.vertices.push_back(grid.vertex(r, c, height));
     };
-    const auto put = [&](const Vertex& a, const Vertex& b, const Vertex& c) {
-        emit(MicroTriangle{{a.p, b.p, c.p}, {a.b, b.b, c.b}});
-    };
     Row& above = scratch.above;
     Row& below = scratch.below;
-    Range range_above = grid.columns_in(0, lo, hi), range_below = grid.columns_in(1, lo, hi);
+    Range range_above = grid.columns_in(0, near.lo, near.hi);
+    Range range_below = grid.columns_in(1, near.lo, near.hi);
     fill(above, 0, join(range_above, range_below));
     for (std::int64_t r = 0; r < grid.rows(); ++r) {
-        const Range range_next = grid.columns_in(r + 2, lo, hi);
+        const Range range_next = grid.columns_in(r + 2, near.lo, near.hi);
         const Range strip = join(range_above, range_below);
         fill(below, r + 1, join(strip, range_next));
         for (std::int64_t c = strip.lo; c <= std::min(r, strip.hi); ++c) {
-            put(above.at(c), below.at(c), below.at(c + 1));
-            if (c < r) put(above.at(c), below.at(c + 1), above.at(c + 1));
+            emit(micro(above.at(c), below.at(c), below.at(c + 1)));
+            if (c < r) emit(micro(above.at(c), below.at(c + 1), above.at(c + 1)));
         }
         std::swap(above, below);
         range_above = range_below;
         range_below = range_next;
+    }
+}
+
+/// In place of a DisplaceScratch where there is no memory for one.
+struct NoScratch {};
+
+/// The same micro-triangles without scratch: a vertex is computed for the strip above it and again
+/// for the one below.
+template <typename Height, typename Emit>
+HEDDLE_HD inline void displace_triangle(const DisplaceTriangle& t,
+                                        Vec3d subvoxel_size,
+                                        double reach,
+                                        const SubvoxelBox& box,
+                                        const Height& height,
+                                        Emit&& emit,
+                                        NoScratch) {
+    using namespace displace_detail;
+    const Grid grid(t, subvoxel_size);
+    const ReachBox near(box, reach, subvoxel_size);
+    for (std::int64_t r = 0; r < grid.rows(); ++r) {
+        const Range strip =
+            join(grid.columns_in(r, near.lo, near.hi), grid.columns_in(r + 1, near.lo, near.hi));
+        if (strip.empty() || strip.lo > r) continue;
+        Vertex above = grid.vertex(r, strip.lo, height);
+        Vertex below = grid.vertex(r + 1, strip.lo, height);
+        for (std::int64_t c = strip.lo; c <= std::min(r, strip.hi); ++c) {
+            const Vertex below_next = grid.vertex(r + 1, c + 1, height);
+            emit(micro(above, below, below_next));
+            if (c == r) break;
+            const Vertex above_next = grid.vertex(r, c + 1, height);
+            emit(micro(above, below_next, above_next));
+            above = above_next;
+            below = below_next;
+        }
     }
 }
 

@@ -1,4 +1,4 @@
-#include <heddle/voxel/surface_sample.h>
+#include <heddle/voxel/surface_source.h>
 
 #include <heddle/base/error.h>
 #include <heddle/base/parallel.h>
@@ -47,18 +47,18 @@ Geometry square(float edge) {
 void sample_all(const Geometry& g,
                 const std::function<void(const SurfaceSample&)>& visit,
                 int layers = 1) {
-    const SurfaceSampler sampler(g, {1, 1, 1}, 7);
+    const SurfaceSource surfaces(g, {1, 1, 1}, 7);
     const Mesh& mesh = g.meshes[0];
     for (std::size_t n = 0; n < mesh.triangles.size(); ++n) {
         const auto& [a, b, c] = mesh.triangles[n];
-        const TriangleSetup setup = sampler.setup(mesh, n);
+        const TriangleSetup setup = set_up_triangle(surfaces.view(), surfaces.view_of(mesh), n);
         scan_triangle(prepare_triangle(to_double(mesh.positions[a]), to_double(mesh.positions[b]),
                                        to_double(mesh.positions[c])),
                       kEverywhere,
                       [&](int axis, std::int32_t i, std::int32_t j, std::int32_t k, float b0,
                           float b1, float b2) {
                           for (int depth = k; axis == 2 && depth < k + layers; ++depth)
-                              visit(sampler.sample(setup, {axis, i, j, depth, b0, b1, b2}));
+                              visit(sample_at(7, setup, {axis, i, j, depth, b0, b1, b2}));
                       });
     }
 }
@@ -234,13 +234,13 @@ TEST(SurfaceSample, TangentsTurnWithRotationMapAndHandedness) {
 
 TEST(SurfaceSample, PlainTrianglesAreConstantAndSmoothOnesInterpolate) {
     Geometry g = square(8.0f);
-    EXPECT_TRUE(SurfaceSampler(g, {1, 1, 1}, 0).setup(g.meshes[0], 0).constant);
+    EXPECT_TRUE(SurfaceSource(g, {1, 1, 1}, 0).view_of(g.meshes[0]).constant);
     const float s = std::sqrt(0.5f);
     g.meshes[0].normals = {{-s, 0, s}, {s, 0, s}, {s, 0, s}, {-s, 0, s}};
-    const SurfaceSampler sampler(g, {1, 1, 1}, 0);
-    const TriangleSetup setup = sampler.setup(g.meshes[0], 0);
+    const SurfaceSource surfaces(g, {1, 1, 1}, 0);
+    const TriangleSetup setup = set_up_triangle(surfaces.view(), surfaces.view_of(g.meshes[0]), 0);
     EXPECT_FALSE(setup.constant);
-    const Vec3f middle = sampler.sample(setup, {2, 0, 0, 0, 0.5f, 0.5f, 0.0f}).normal;
+    const Vec3f middle = sample_at(0, setup, {2, 0, 0, 0, 0.5f, 0.5f, 0.0f}).normal;
     EXPECT_NEAR(middle.x, 0.0f, 1e-6f);
     EXPECT_NEAR(middle.z, 1.0f, 1e-6f);
 }
@@ -257,9 +257,9 @@ TEST(SurfaceSample, LevelsAreTheSameOnAnyNumberOfThreads) {
     sample_all(g, [&](const SurfaceSample& s) { many.push_back(s.albedo.x); });
     set_thread_count(0);
     EXPECT_EQ(one, many);
-    const SurfaceSampler sampler(g, {1, 1, 1}, 0);
-    EXPECT_EQ(sampler.bytes(), SurfaceSampler::predict_bytes(g));
-    EXPECT_EQ(sampler.bytes(), 8 * (128 * 128 * 4 - 1) / 3);
+    const SurfaceSource surfaces(g, {1, 1, 1}, 0);
+    EXPECT_EQ(surfaces.bytes(), SurfaceSource::predict_bytes(g));
+    EXPECT_EQ(surfaces.bytes(), 8 * (128 * 128 * 4 - 1) / 3);
 }
 
 TEST(SurfaceSample, BadInputIsAnErrorAndBadCoordinatesAreHarmless) {
@@ -275,9 +275,9 @@ TEST(SurfaceSample, BadInputIsAnErrorAndBadCoordinatesAreHarmless) {
         }
     }
     g.textures[0].texels.pop_back();
-    EXPECT_THROW(SurfaceSampler(g, {1, 1, 1}, 0), Error);
+    EXPECT_THROW(SurfaceSource(g, {1, 1, 1}, 0), Error);
     g.materials[0].albedo_map = 3;
-    EXPECT_THROW(SurfaceSampler(g, {1, 1, 1}, 0), Error);
+    EXPECT_THROW(SurfaceSource(g, {1, 1, 1}, 0), Error);
 }
 
 TEST(SurfaceSample, WrapModesReadAcrossTheBorder) {
@@ -298,12 +298,13 @@ TEST(SurfaceSample, HeightAndItsBoundComeFromTheMap) {
     Geometry g = square(64.0f);
     g.textures.push_back(make_texture(4, 4, 1, [](int x, int, int) { return 51 + 51 * x; }));
     g.materials[0].height_map = 0;
-    EXPECT_FALSE(SurfaceSampler(g, {1, 1, 1}, 0).is_displaced(g.meshes[0]));
+    EXPECT_FALSE(SurfaceSource(g, {1, 1, 1}, 0).view_of(g.meshes[0]).displaced());
     g.materials[0].height_scale = 2.0f;
     g.materials[0].height_offset = -1.0f;
-    const SurfaceSampler sampler(g, {1, 1, 1}, 0);
-    ASSERT_TRUE(sampler.is_displaced(g.meshes[0]));
-    EXPECT_NEAR(sampler.height_of(g.meshes[0])({0.125f, 0.5f}), -0.6f, 1e-5f);
+    const SurfaceSource surfaces(g, {1, 1, 1}, 0);
+    const MeshView& mesh = surfaces.view_of(g.meshes[0]);
+    ASSERT_TRUE(mesh.displaced());
+    EXPECT_NEAR(surfaces.view().height_of(mesh)({0.125f, 0.5f}), -0.6f, 1e-5f);
     EXPECT_NEAR(max_displacement(g.materials[0], g.textures[0]), 0.6, 1e-6);
 }
 
