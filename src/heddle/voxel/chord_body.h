@@ -13,7 +13,9 @@ namespace heddle {
 
 /// A voxel index as one number, x << 20 | y << 10 | z: adding adds all three, and a coordinate that
 /// leaves 0 .. 31 shows in its upper bits. Enough for what lies within 400 voxels of the block.
-constexpr int kFieldShift[3] = {20, 10, 0};
+[[nodiscard]] HEDDLE_HD constexpr int field_shift(int axis) {
+    return 20 - 10 * axis;
+}
 constexpr std::int32_t kFieldOverflow =
     static_cast<std::int32_t>(0xfe000000u) | 0x3e0 << 10 | 0x3e0;
 
@@ -37,7 +39,7 @@ public:
     HEDDLE_INLINE explicit BlockWords(Vec3i size) {
         std::uint32_t word = 0;
         for (int a = 0; a < 3; ++a) {
-            word += static_cast<std::uint32_t>(kBlockVoxels - size[a]) << kFieldShift[a];
+            word += static_cast<std::uint32_t>(kBlockVoxels - size[a]) << field_shift(a);
         }
         spare_ = Int(static_cast<std::int32_t>(word));
     }
@@ -118,8 +120,8 @@ HEDDLE_INLINE void walk_voxels(const LatticeUnits& u, ChordLanes<L>& k, const Vi
         const Real border = (v0 + select(forward, Real(1.0f), Real(0.0f))) * Real(u.voxel[a]);
         next[a] = select(flat, Real(kFar), (border - k.start[a]) * inv);
         gap[a] = select(flat, Real(kFar), Real(u.voxel[a]) * abs(inv));
-        step[a] = select(forward, Int(1), Int(-1)) << kFieldShift[a];
-        word = word + (to_int(v0) << kFieldShift[a]);
+        step[a] = select(forward, Int(1), Int(-1)) << field_shift(a);
+        word = word + (to_int(v0) << field_shift(a));
     }
     Real from(0.0f);
     for (Int& passed : k.passed) passed = Int(-1); // in no block
@@ -275,7 +277,7 @@ struct ColumnPlace {
         const Int column_j = to_int(j);
         const Int ia = select(swapped, column_j, column_i);
         const Int ib = select(swapped, column_i, column_j);
-        base = anchor + ((ia >> shift) << kFieldShift[kA]) + ((ib >> shift) << kFieldShift[kB]);
+        base = anchor + ((ia >> shift) << field_shift(kA)) + ((ib >> shift) << field_shift(kB));
         bit = ((ib & low) << shift) | (ia & low);
         const Real inv_voxel(u.inv_voxel[kDepth]);
         depth = to_int(floor(at.enter * inv_voxel));

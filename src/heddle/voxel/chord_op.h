@@ -49,7 +49,7 @@ HEDDLE_HD inline void mark_columns(const ChordLanes<one::Lanes>& k,
             ColumnPlace<one::Lanes, kDepth> place(k.anchor, v.swapped, i, j, at, space.units,
                                                   space.shift);
             for (; place.depth.v <= place.last.v; place.depth = place.depth + Int(1)) {
-                const Int word = place.base + (place.depth << kFieldShift[kDepth]);
+                const Int word = place.base + (place.depth << field_shift(kDepth));
                 if (!block.holds(word).v) continue;
                 const int cell = block.cell(word).v;
                 sums.or_column(cell, kDepth, std::uint64_t{1} << place.bit.v);
@@ -103,7 +103,7 @@ gather_chord_op(const ThinChord& chord, Vec3i anchor, const ChordSpace& space, c
         k.dir[a] = Real(chord.dir[a]);
         bend[a] = Real(chord.bend[a]);
         at[a] = Int(anchor[a]);
-        k.anchor = k.anchor + (at[a] << kFieldShift[a]);
+        k.anchor = k.anchor + (at[a] << field_shift(a));
     }
     k.length = Real(chord.length);
     k.before = Real(chord.before);

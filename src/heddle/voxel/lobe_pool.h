@@ -17,7 +17,7 @@ struct LobePool {
     std::array<DirectionSums, kMaxPool> sums;
     std::array<MapSums, kMaxPool> maps; ///< meaningless unless the grid has map sums
 
-    void add(const DirectionSums& lobe, const MapSums* lobe_maps) {
+    HEDDLE_HD void add(const DirectionSums& lobe, const MapSums* lobe_maps) {
         const auto at = static_cast<std::size_t>(count++);
         sums[at] = lobe;
         if (lobe_maps != nullptr) maps[at] = *lobe_maps;

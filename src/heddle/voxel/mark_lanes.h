@@ -83,7 +83,7 @@ inline void mark_candidates(const LaneBlock& b,
                                          b.target.units, shift);
         const Int bit = place.bit << 16;
         for (Mask open = depths.hit; open.bits() != 0;) {
-            const Int word = place.base + (place.depth << kFieldShift[kDepth]);
+            const Int word = place.base + (place.depth << field_shift(kDepth));
             const Mask here = open & b.holds(word);
             if (here.bits() != 0) {
                 const Int cell = LaneBlock::cell(word);
@@ -143,7 +143,7 @@ void gather(const ChordArrays& chords, const GatherTarget& target) {
             k.start[a] = Real::load(chords.start[a] + at);
             k.dir[a] = Real::load(chords.dir[a] + at);
             anchor[a] = Int::load(chords.anchor[a] + at);
-            k.anchor = k.anchor + (anchor[a] << kFieldShift[a]);
+            k.anchor = k.anchor + (anchor[a] << field_shift(a));
         }
         k.length = Real::load(chords.length + at);
         k.before = Real::load(chords.before + at);
