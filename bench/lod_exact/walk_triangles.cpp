@@ -103,7 +103,7 @@ void walk_triangles(const Geometry& geometry,
     const Surfaces surfaces{geometry, SurfaceSource(geometry, {edge, edge, edge}, kSeed),
                             lattice.voxel_size, edge * edge};
     for (const Mesh& mesh : geometry.meshes) {
-        if (!surfaces.source.view_of(mesh).displaced()) continue;
+        if (surfaces.source.view_of(mesh).kind != SurfaceKind::Displaced) continue;
         throw Error(ErrorCode::Unsupported, "a displaced surface", "walk plain ones");
     }
     const std::vector<TriangleId> list = list_triangles(geometry);

@@ -1,11 +1,11 @@
 #pragma once
 
+#include <heddle/device/upload_array.h>
 #include <heddle/gpu/array.h>
 #include <heddle/voxel/fiber_source.h>
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace heddle {
@@ -26,18 +26,6 @@ struct FiberArrays {
     gpu::Array<std::uint64_t> first_span;
     FiberView view; ///< valid while this lives, moved or not
 };
-
-namespace upload_detail {
-
-/// Copies n objects, and points to the copy; null stays null.
-template <typename Exec, typename T>
-void replace(Exec& exec, gpu::Array<T>& held, const T*& data, std::size_t n) {
-    if (data == nullptr) return;
-    held = exec.make_from(std::span<const T>(data, n));
-    data = held.data();
-}
-
-} // namespace upload_detail
 
 /// Copies what fibers are made of to where `exec` works.
 /// @throws Error  OutOfMemory, Device

@@ -67,7 +67,7 @@ HEDDLE_HD inline std::array<float, 3> hit_weights(Vec3d normal, const LatticeUni
     for (int axis = 0; axis < 3; ++axis) {
         const double area = hit_weight(normal, axis, to_double(units.edge));
         weights[static_cast<std::size_t>(axis)] =
-            static_cast<float>(std::max(area, kLeastWeight)) * kWeightScale;
+            static_cast<float>(area < kLeastWeight ? kLeastWeight : area) * kWeightScale;
     }
     return weights;
 }

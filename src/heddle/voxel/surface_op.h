@@ -44,10 +44,8 @@ struct TriangleSetup {
     const SurfaceMaps* maps = nullptr;
     Vec3f face_normal{};   ///< unit, counter-clockwise side
     Vec3d normal{};        ///< the same, as `hit_weight` takes it
-    bool constant = false; ///< every hit gives {true, face_normal}: no need to call `sample_at`
     bool smooth = false;   ///< vertex normals vary
     bool textured = false; ///< `uv` holds
-    bool displaced = false;
     std::int32_t run =
         1; ///< neighbouring hits of a row that one sample, at their middle, stands for
     std::array<Vec3f, 3> normals{};
@@ -222,15 +220,14 @@ set_up_triangle(const SurfaceView& view, const MeshView& mesh, std::uint64_t tri
         t.normals = {mesh.normals[a], mesh.normals[b], mesh.normals[c]};
         t.smooth = true;
     }
-    t.displaced = mesh.displaced();
-    if (!t.displaced && t.maps->alpha_mode == AlphaMode::Opaque) t.run = view.run;
+    const bool displaced = mesh.kind == SurfaceKind::Displaced;
+    if (!displaced && t.maps->alpha_mode == AlphaMode::Opaque) t.run = view.run;
     if (mesh.uvs != nullptr) {
         t.uv = {mesh.uvs[a], mesh.uvs[b], mesh.uvs[c]};
         surface_detail::set_texture(view, 0.5 * length(twice), t);
     }
     const bool framed = t.maps->anisotropic || (t.textured && t.maps->normal != nullptr);
     if (framed) surface_detail::set_tangents(mesh, triangle, t);
-    t.constant = mesh.constant;
     return t;
 }
 
@@ -239,8 +236,9 @@ set_up_triangle(const SurfaceView& view, const MeshView& mesh, std::uint64_t tri
 [[nodiscard]] HEDDLE_HD inline SurfaceSample
 sample_at(std::uint64_t seed, const TriangleSetup& t, const SurfaceHit& hit) {
     using namespace surface_detail;
-    if (!t.smooth) return shade(seed, t, hit, t.face_normal, true);
-    return shade(seed, t, hit, normalize(interpolate(t.normals, hit), t.face_normal), true);
+    const Vec3f normal =
+        t.smooth ? normalize(interpolate(t.normals, hit), t.face_normal) : t.face_normal;
+    return shade(seed, t, hit, normal, true);
 }
 
 /// The same on a displaced triangle: `micro_normal` (unit) takes the place of the interpolated

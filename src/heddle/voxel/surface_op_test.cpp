@@ -234,12 +234,13 @@ TEST(SurfaceSample, TangentsTurnWithRotationMapAndHandedness) {
 
 TEST(SurfaceSample, PlainTrianglesAreConstantAndSmoothOnesInterpolate) {
     Geometry g = square(8.0f);
-    EXPECT_TRUE(SurfaceSource(g, {1, 1, 1}, 0).view_of(g.meshes[0]).constant);
+    const auto kind = [&] { return SurfaceSource(g, {1, 1, 1}, 0).view_of(g.meshes[0]).kind; };
+    EXPECT_EQ(kind(), SurfaceKind::Constant);
     const float s = std::sqrt(0.5f);
     g.meshes[0].normals = {{-s, 0, s}, {s, 0, s}, {s, 0, s}, {-s, 0, s}};
     const SurfaceSource surfaces(g, {1, 1, 1}, 0);
     const TriangleSetup setup = set_up_triangle(surfaces.view(), surfaces.view_of(g.meshes[0]), 0);
-    EXPECT_FALSE(setup.constant);
+    EXPECT_EQ(kind(), SurfaceKind::Shaded);
     const Vec3f middle = sample_at(0, setup, {2, 0, 0, 0, 0.5f, 0.5f, 0.0f}).normal;
     EXPECT_NEAR(middle.x, 0.0f, 1e-6f);
     EXPECT_NEAR(middle.z, 1.0f, 1e-6f);
@@ -298,12 +299,12 @@ TEST(SurfaceSample, HeightAndItsBoundComeFromTheMap) {
     Geometry g = square(64.0f);
     g.textures.push_back(make_texture(4, 4, 1, [](int x, int, int) { return 51 + 51 * x; }));
     g.materials[0].height_map = 0;
-    EXPECT_FALSE(SurfaceSource(g, {1, 1, 1}, 0).view_of(g.meshes[0]).displaced());
+    EXPECT_EQ(SurfaceSource(g, {1, 1, 1}, 0).view_of(g.meshes[0]).kind, SurfaceKind::Constant);
     g.materials[0].height_scale = 2.0f;
     g.materials[0].height_offset = -1.0f;
     const SurfaceSource surfaces(g, {1, 1, 1}, 0);
     const MeshView& mesh = surfaces.view_of(g.meshes[0]);
-    ASSERT_TRUE(mesh.displaced());
+    ASSERT_EQ(mesh.kind, SurfaceKind::Displaced);
     EXPECT_NEAR(surfaces.view().height_of(mesh)({0.125f, 0.5f}), -0.6f, 1e-5f);
     EXPECT_NEAR(max_displacement(g.materials[0], g.textures[0]), 0.6, 1e-6);
 }

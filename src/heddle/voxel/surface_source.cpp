@@ -75,6 +75,7 @@ SurfaceSource::SurfaceSource(const Geometry& geometry,
     view_.materials = maps_.data();
     view_.mesh_count = meshes_.size();
     view_.triangle_count = first_.back();
+    view_.material_count = static_cast<std::uint32_t>(maps_.size());
 }
 
 SurfaceSource::SurfaceSource(const Geometry& geometry,
@@ -94,6 +95,12 @@ void SurfaceSource::add_mesh(const Mesh& mesh) {
     view.vertex_count = mesh.positions.size();
     view.material = mesh.material;
     const bool displaced = m.height != nullptr && !mesh.uvs.empty();
+    const bool mapped = m.albedo != nullptr || m.normal != nullptr || m.metal_rough != nullptr;
+    const bool shaded = !mesh.normals.empty() || m.anisotropic || (mapped && !mesh.uvs.empty()) ||
+                        m.alpha_mode != AlphaMode::Opaque;
+    view.kind = displaced ? SurfaceKind::Displaced
+                : shaded  ? SurfaceKind::Shaded
+                          : SurfaceKind::Constant;
     normals_.push_back(displaced && mesh.normals.empty() ? average_normals(mesh)
                                                          : std::vector<Vec3f>{});
     if (displaced) {
@@ -101,10 +108,6 @@ void SurfaceSource::add_mesh(const Mesh& mesh) {
         view.height_level = height_level(mesh, *m.height, view_.subvoxel_size);
         view.displacement = max_displacement(geometry_, mesh);
     }
-    const bool mapped = m.albedo != nullptr || m.normal != nullptr || m.metal_rough != nullptr ||
-                        m.height != nullptr;
-    view.constant = mesh.normals.empty() && !m.anisotropic && (!mapped || mesh.uvs.empty()) &&
-                    m.alpha_mode == AlphaMode::Opaque;
     meshes_.push_back(view);
     first_.push_back(first_.back() + mesh.triangles.size());
 }

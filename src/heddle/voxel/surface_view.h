@@ -48,6 +48,13 @@ struct HeightLookup {
     }
 };
 
+/// What a mesh's hits take.
+enum class SurfaceKind : std::uint8_t {
+    Constant, ///< every hit of a triangle is covered and has its face's normal
+    Shaded,   ///< normals or maps are read
+    Displaced ///< a height map moves the surface
+};
+
 /// A Mesh as pointers and numbers. Null where it has none.
 struct MeshView {
     const Vec3f* positions = nullptr;
@@ -55,14 +62,12 @@ struct MeshView {
     const Tangent* tangents = nullptr;
     const Uv* uvs = nullptr;
     const std::array<std::uint32_t, 3>* triangles = nullptr;
-    const Vec3f* move_normals = nullptr; ///< that a height map moves points along; null: none does
+    const Vec3f* move_normals = nullptr; ///< that a height map moves points along; displaced only
     std::uint64_t vertex_count = 0;
     double displacement = 0.0; ///< how far a height map moves points at most, scene units
     float height_level = 0.0f; ///< of the height map, at the mesh's mean footprint
     std::uint32_t material = 0;
-    bool constant = false; ///< every hit gives {true, face normal}
-
-    [[nodiscard]] HEDDLE_HD bool displaced() const { return move_normals != nullptr; }
+    SurfaceKind kind = SurfaceKind::Constant;
 };
 static_assert(sizeof(MeshView) == 80, "the same on host and device");
 
@@ -74,7 +79,8 @@ struct SurfaceView {
     std::uint64_t mesh_count = 0;
     std::uint64_t triangle_count = 0;
     std::uint64_t seed = 0;
-    Vec3d subvoxel_size;  ///< scene units
+    Vec3d subvoxel_size; ///< scene units
+    std::uint32_t material_count = 0;
     std::int32_t run = 1; ///< so many neighbouring hits share a sample, where alpha cuts none
 
     [[nodiscard]] HEDDLE_HD TrianglePlace place(std::uint64_t triangle) const {

@@ -92,6 +92,16 @@ HEDDLE_HD inline TriangleWork add_flat(const BlockTriangle<Sums>& t) {
     return hits.work();
 }
 
+/// Adds a displaced triangle.
+template <typename Sums, typename Scratch>
+HEDDLE_HD inline TriangleWork add_displaced(const BlockTriangle<Sums>& t, Scratch&& scratch) {
+    const MeshView& mesh = t.mesh();
+    DisplacedHits<Sums> hits(t);
+    displace_triangle(displaced(mesh, t.place.triangle), t.surfaces.subvoxel_size,
+                      mesh.displacement, t.target.box(), t.surfaces.height_of(mesh), hits, scratch);
+    return hits.work();
+}
+
 } // namespace triangle_detail
 
 /// Adds what lies in a block of one triangle: one body for host and device.
@@ -101,9 +111,26 @@ HEDDLE_HD inline TriangleWork add_flat(const BlockTriangle<Sums>& t) {
 /// (`hit_weight`). Maps' values and anisotropic tangents go to the map sums where there are some. A
 /// hit that alpha cuts away leaves nothing.
 ///
+/// @tparam Kind    the mesh's kind: code for the others would take the device's registers
 /// @param lo,hi    voxels of the block, [lo, hi), at most kBlockVoxels an axis
 /// @param sums     of the block, bound to the material of the triangle's mesh (surface_hits.h)
 /// @param scratch  DisplaceScratch, or NoScratch
+template <SurfaceKind Kind, typename Sums, typename Scratch>
+HEDDLE_HD inline TriangleWork add_triangle(const SurfaceView& surfaces,
+                                           TrianglePlace place,
+                                           const LatticeUnits& units,
+                                           Vec3i lo,
+                                           Vec3i hi,
+                                           Sums& sums,
+                                           Scratch&& scratch) {
+    using namespace triangle_detail;
+    const BlockTriangle<Sums> t{BlockTarget<Sums>(sums, lo, hi, units.n), surfaces, units, place};
+    if constexpr (Kind == SurfaceKind::Constant) return add_flat<ConstantHits<Sums>>(t);
+    if constexpr (Kind == SurfaceKind::Shaded) return add_flat<ShadedHits<Sums>>(t);
+    if constexpr (Kind == SurfaceKind::Displaced) return add_displaced(t, scratch);
+}
+
+/// The same of any kind.
 template <typename Sums, typename Scratch>
 HEDDLE_HD inline TriangleWork add_triangle(const SurfaceView& surfaces,
                                            TrianglePlace place,
@@ -112,17 +139,14 @@ HEDDLE_HD inline TriangleWork add_triangle(const SurfaceView& surfaces,
                                            Vec3i hi,
                                            Sums& sums,
                                            Scratch&& scratch) {
-    const BlockTriangle<Sums> t{BlockTarget<Sums>(sums, lo, hi, units.n), surfaces, units, place};
-    const MeshView& mesh = t.mesh();
-    if (mesh.displaced()) {
-        triangle_detail::DisplacedHits<Sums> hits(t);
-        displace_triangle(triangle_detail::displaced(mesh, place.triangle), surfaces.subvoxel_size,
-                          mesh.displacement, t.target.box(), surfaces.height_of(mesh), hits,
-                          scratch);
-        return hits.work();
+    switch (surfaces.meshes[place.mesh].kind) {
+    case SurfaceKind::Constant:
+        return add_triangle<SurfaceKind::Constant>(surfaces, place, units, lo, hi, sums, scratch);
+    case SurfaceKind::Shaded:
+        return add_triangle<SurfaceKind::Shaded>(surfaces, place, units, lo, hi, sums, scratch);
+    case SurfaceKind::Displaced: break;
     }
-    return mesh.constant ? triangle_detail::add_flat<ConstantHits<Sums>>(t)
-                         : triangle_detail::add_flat<ShadedHits<Sums>>(t);
+    return add_triangle<SurfaceKind::Displaced>(surfaces, place, units, lo, hi, sums, scratch);
 }
 
 } // namespace heddle

@@ -208,12 +208,17 @@ HEDDLE_HD inline RowSpan scan_row_as(const AxisScan& s, std::int64_t row) {
     return span;
 }
 
+using Int128 = __int128;
+
+/// For triangles longer than 2^18 subvoxels.
+HEDDLE_SELDOM RowSpan scan_wide_row(const AxisScan& s, std::int64_t row) {
+    return scan_row_as<Int128>(s, row);
+}
+
 template <typename Int>
 [[nodiscard]] HEDDLE_HD inline double twice_area(const AxisScan& s) {
     return static_cast<double>(Int{s.du1} * Int{s.dv2} - Int{s.du2} * Int{s.dv1});
 }
-
-using Int128 = __int128;
 
 /// Sets `s` up for projection along `Axis`; false if the projected triangle has no area.
 template <int Axis>
@@ -291,8 +296,7 @@ HEDDLE_HD inline void scan_axis(const ScanTriangle& t, const ScanRange& range, H
     const double step1 = s.step1, step2 = s.step2;
     const std::int32_t anchor_u = t.anchor[u], anchor_v = t.anchor[v], anchor_w = t.anchor[Axis];
     for (std::int64_t row = range.center_lo[v]; row < range.center_hi[v]; ++row) {
-        const RowSpan span =
-            s.wide ? scan_row_as<Int128>(s, row) : scan_row_as<std::int64_t>(s, row);
+        const RowSpan span = s.wide ? scan_wide_row(s, row) : scan_row_as<std::int64_t>(s, row);
         std::int64_t first = span.first > range.lo[u] ? span.first : range.lo[u];
         std::int64_t last = span.last < range.hi[u] ? span.last : range.hi[u];
         clip_to_depth(span, step_w, static_cast<double>(k_lo * kScanOne),

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <heddle/gpu/array.h>
+
+#include <cstddef>
+#include <span>
+
+namespace heddle::upload_detail {
+
+/// Copies n objects to where `exec` works, and points to the copy; null stays null.
+template <typename Exec, typename T>
+void replace(Exec& exec, gpu::Array<T>& held, const T*& data, std::size_t n) {
+    if (data == nullptr) return;
+    held = exec.make_from(std::span<const T>(data, n));
+    data = held.data();
+}
+
+} // namespace heddle::upload_detail
