@@ -17,10 +17,8 @@ std::vector<Option> device_options() {
     };
 }
 
-DeviceChoice choose_device(const Arguments& arguments,
-                           const Geometry& geometry,
-                           const VoxelizeOptions& options,
-                           Report& report) {
+DeviceChoice
+choose_device(const Arguments& arguments, const VoxelizeOptions& options, Report& report) {
     DeviceChoice choice;
     const std::string& where = arguments.text("device");
     const bool memory = arguments.given("device-memory");
@@ -29,7 +27,7 @@ DeviceChoice choose_device(const Arguments& arguments,
         return choice;
     }
     const gpu::Device device = gpu::find_device();
-    const std::string cannot = why_not_on_device(geometry, options);
+    const std::string cannot = why_not_on_device(options);
     if (where == "cuda") {
         if (device.name.empty()) {
             throw Error(ErrorCode::Device, str("--device cuda: ", device.why),

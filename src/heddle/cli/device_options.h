@@ -22,10 +22,8 @@ struct DeviceChoice {
 /// the device does not do what is asked.
 /// @throws UsageError  --device-memory without a device
 /// @throws Error       Device: --device cuda, and there is none; Unsupported: it does not do this
-[[nodiscard]] DeviceChoice choose_device(const Arguments& arguments,
-                                         const Geometry& geometry,
-                                         const VoxelizeOptions& options,
-                                         Report& report);
+[[nodiscard]] DeviceChoice
+choose_device(const Arguments& arguments, const VoxelizeOptions& options, Report& report);
 
 /// voxelize() where `choice` says, with rows on what the device took.
 [[nodiscard]] std::unique_ptr<VoxelSource> voxelize_where(const DeviceChoice& choice,

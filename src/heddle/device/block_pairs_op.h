@@ -4,7 +4,9 @@
 #include <heddle/gpu/atomic.h>
 #include <heddle/voxel/bin_op.h>
 #include <heddle/voxel/fiber_view.h>
+#include <heddle/voxel/surface_view.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -80,6 +82,34 @@ private:
         std::uint32_t material;
         HEDDLE_HD void operator()(int x, int y, int z) const {
             op.to.add(kind, id, op.range.number({x, y, z}), material);
+        }
+    };
+};
+
+/// Walks a triangle: to.add() for each block that it may touch.
+template <typename To>
+struct WalkTriangleOp {
+    SurfaceView surfaces;
+    LatticeUnits units;
+    BlockRange range;
+    To to;
+
+    HEDDLE_HD void operator()(std::size_t triangle) const {
+        const TrianglePlace at = surfaces.place(triangle);
+        const MeshView& mesh = surfaces.meshes[at.mesh];
+        const std::array<std::uint32_t, 3> c = mesh.triangles[at.triangle];
+        const Vec3f corners[3] = {mesh.positions[c[0]], mesh.positions[c[1]], mesh.positions[c[2]]};
+        for_each_block(corners, mesh.displacement, units, range,
+                       Visit{*this, triangle, mesh.material});
+    }
+
+private:
+    struct Visit {
+        const WalkTriangleOp& op;
+        std::size_t triangle;
+        std::uint32_t material;
+        HEDDLE_HD void operator()(int x, int y, int z) const {
+            op.to.add(PrimitiveKind::Triangle, triangle, op.range.number({x, y, z}), material);
         }
     };
 };

@@ -6,6 +6,7 @@
 #include <heddle/device/blocks_from_level.h>
 #include <heddle/device/gather_batch.h>
 #include <heddle/device/upload_fibers.h>
+#include <heddle/device/upload_surfaces.h>
 #include <heddle/device/voxelize_device.h>
 #include <heddle/voxel/block_keeper.h>
 #include <heddle/voxel/block_worker.h>
@@ -23,9 +24,7 @@
 namespace heddle {
 
 /// @throws Error  Unsupported: why_not_on_device(); InvalidArgument: options that cannot be
-void check_device_options(const Geometry& geometry,
-                          const VoxelizeOptions& options,
-                          const DeviceOptions& device);
+void check_device_options(const VoxelizeOptions& options, const DeviceOptions& device);
 
 /// Batches are done by several threads of the host: the first error of any stops all.
 class FirstError {
@@ -100,6 +99,7 @@ private:
     DeviceScene scene_;
     FiberArrays fibers_;
     FiberTables tables_;
+    SurfaceArrays surfaces_;
     PairCounts counts_;
     std::unique_ptr<BlockOrder> order_;
     std::unique_ptr<BlockKeeper> keeper_;
@@ -121,7 +121,9 @@ void DeviceRun<Exec>::upload() {
     const PlacedFibers placed(context_.fibers);
     fibers_ = upload_fibers(exec, context_.fibers);
     tables_ = placed.upload(exec);
+    surfaces_ = upload_surfaces(exec, context_.surfaces);
     exec.wait();
+    scene_.surfaces = surfaces_.view;
     scene_.fibers = fibers_.view;
     scene_.tables = tables_.view();
     scene_.range = context_.range;
@@ -144,8 +146,7 @@ void DeviceRun<Exec>::count() {
         counts[k] = exec.template make_zero<std::uint32_t>(blocks);
         to.counts[k] = counts[k].data();
     }
-    exec.for_each(scene_.fibers.span_count,
-                  WalkSpanOp<CountPairs>{scene_.fibers, scene_.range, to});
+    walk_primitives(exec, scene_, to);
     for (std::size_t k = 0; k < kPrimitiveKinds; ++k) {
         counts_[k].resize(blocks);
         exec.download(std::span(counts_[k]), counts[k].data());

@@ -2,6 +2,7 @@
 
 #include <heddle/device/fit_sums.h>
 #include <heddle/device/gather_fibers_op.h>
+#include <heddle/device/gather_triangle_op.h>
 
 #include <array>
 #include <cstdint>
@@ -14,7 +15,7 @@ namespace heddle {
 struct DeviceScene {
     FiberView fibers;
     FiberTablesView tables;
-    std::uint64_t triangle_count = 0;
+    SurfaceView surfaces;
     BlockRange range;
     FitSettings fit;
     bool with_maps = false; ///< map sums are kept
@@ -49,6 +50,14 @@ struct SetSlotsOp {
     }
 };
 
+/// Shows each primitive of the scene with each block that it may touch to `to`.
+template <typename Exec, typename To>
+void walk_primitives(Exec& exec, const DeviceScene& scene, const To& to) {
+    exec.for_each(scene.fibers.span_count, WalkSpanOp<To>{scene.fibers, scene.range, to});
+    exec.for_each(scene.surfaces.triangle_count,
+                  WalkTriangleOp<To>{scene.surfaces, scene.fibers.units, scene.range, to});
+}
+
 /// Lists the primitives of a batch's blocks, and gives each block its planes: one a material.
 /// @param slot_of_block  room for a number per block of the range
 template <typename Exec>
@@ -70,7 +79,7 @@ list_pairs(Exec& exec, const DeviceScene& scene, BlockBatch& batch, std::uint32_
     }
     exec.for_each(scene.range.count(), FillOp{slot_of_block, ListPairs::kNoSlot});
     exec.for_each(n, SetSlotsOp{numbers.data(), slot_of_block});
-    exec.for_each(scene.fibers.span_count, WalkSpanOp<ListPairs>{scene.fibers, scene.range, list});
+    walk_primitives(exec, scene, list);
     exec.download(std::span(batch.blocks), blocks.data());
     std::uint32_t planes = 0;
     for (BatchBlock& block : batch.blocks) {
@@ -143,6 +152,10 @@ template <typename Exec>
     const FiberBatch fibers{scene.fibers, scene.tables, sums};
     gather_plain(exec, fibers, pairs.of[static_cast<std::size_t>(PrimitiveKind::Plain)]);
     gather_yarns(exec, fibers, pairs.of[static_cast<std::size_t>(PrimitiveKind::Yarn)]);
+    const auto& triangles = pairs.of[static_cast<std::size_t>(PrimitiveKind::Triangle)];
+    exec.set_stage("gather of triangles");
+    exec.for_each(triangles.size(),
+                  GatherTriangleOp{scene.surfaces, scene.fibers.units, sums, triangles.data()});
     return fit_sums(exec, sums, n, merging, scene.fit);
 }
 

@@ -6,17 +6,14 @@
 
 namespace heddle {
 
-std::string why_not_on_device(const Geometry& geometry, const VoxelizeOptions& options) {
+std::string why_not_on_device(const VoxelizeOptions& options) {
     if (options.coverage == CoverageMode::Mask) return "coverage 'mask' is made on the CPU alone";
     if (options.fit == FitMode::Last) return "fit 'last' is made on the CPU alone";
-    if (!geometry.meshes.empty()) return "triangles are voxelized on the CPU alone";
     return {};
 }
 
-void check_device_options(const Geometry& geometry,
-                          const VoxelizeOptions& options,
-                          const DeviceOptions& device) {
-    const std::string cannot = why_not_on_device(geometry, options);
+void check_device_options(const VoxelizeOptions& options, const DeviceOptions& device) {
+    const std::string cannot = why_not_on_device(options);
     if (!cannot.empty()) {
         throw Error(ErrorCode::Unsupported, "voxelize: " + cannot, "use the CPU");
     }
@@ -35,7 +32,7 @@ std::unique_ptr<VoxelSource> voxelize_on_host_executor(const Geometry& geometry,
                                                        Progress& progress,
                                                        LevelBuilder* levels,
                                                        DeviceReport* report) {
-    check_device_options(geometry, options, device);
+    check_device_options(options, device);
     DeviceOptions with_memory = device;
     if (device.memory_bytes == 0) with_memory.memory_bytes = available_bytes() / 10 * 9;
     const VoxelizeContext context(geometry, options, plan.lattice, plan.voxel_lo, plan.voxel_hi);

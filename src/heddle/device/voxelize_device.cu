@@ -12,7 +12,7 @@ std::unique_ptr<VoxelSource> voxelize_on_cuda(const Geometry& geometry,
                                               Progress& progress,
                                               LevelBuilder* levels,
                                               DeviceReport* report) {
-    check_device_options(geometry, options, device);
+    check_device_options(options, device);
     const gpu::Device found = gpu::find_device();
     if (found.name.empty()) throw Error(ErrorCode::Device, "voxelize: " + found.why, "use the CPU");
     DeviceOptions with_memory = device;

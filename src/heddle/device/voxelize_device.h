@@ -33,10 +33,9 @@ struct DeviceReport {
     std::vector<std::pair<std::string, double>> stages; ///< seconds of launches, with time_stages
 };
 
-/// Why the device does not do what is asked, though the CPU does: CoverageMode::Mask, FitMode::Last,
-/// height maps that displace. Empty: it does.
-[[nodiscard]] std::string why_not_on_device(const Geometry& geometry,
-                                            const VoxelizeOptions& options);
+/// Why the device does not do what is asked, though the CPU does: CoverageMode::Mask, FitMode::Last.
+/// Empty: it does.
+[[nodiscard]] std::string why_not_on_device(const VoxelizeOptions& options);
 
 /// voxelize() by the pipeline of the device, on a CUDA device: the same voxels and levels, bit for bit.
 /// @param levels  built above level 0 too; null: none

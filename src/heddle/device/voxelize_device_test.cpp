@@ -68,5 +68,116 @@ TEST(DeviceVoxelizer, YarnAndHairAreTheCpus) {
     }
 }
 
+Geometry generated(GenerateKind kind, std::int64_t nx, std::int64_t ny) {
+    GenerateOptions options;
+    options.kind = kind;
+    options.nx = nx;
+    options.ny = ny;
+    return generate(options);
+}
+
+TEST(DeviceVoxelizer, SurfacesAreTheCpus) {
+    expect_parity(generated(GenerateKind::Brushed, 48, 48), options_of(80));
+    expect_parity(generated(GenerateKind::Grass, 20, 5), options_of(80));
+}
+
+TEST(DeviceVoxelizer, ManyMaterialsShareLobesAsOnTheCpu) {
+    Geometry g = swatch();
+    const Geometry grass = generated(GenerateKind::Grass, 20, 5);
+    g.textures = grass.textures;
+    for (const Mesh& mesh : grass.meshes) {
+        g.meshes.push_back(mesh);
+        g.meshes.back().material = static_cast<std::uint32_t>(g.materials.size());
+        g.materials.push_back(grass.materials[mesh.material]);
+    }
+    for (const int lobes : {1, 2, 3}) {
+        VoxelizeOptions options = options_of(60);
+        options.max_lobes = lobes;
+        expect_parity(g, options);
+    }
+}
+
+TEST(DeviceVoxelizer, ThickFibersAreTheCpus) {
+    Geometry g = swatch();
+    g.curves[0].yarn = -1;
+    expect_parity(g, options_of(120));
+}
+
+TEST(DeviceVoxelizer, BatchesStreamsAndTheSpoolDoNotShow) {
+    for (const std::int64_t batches : {8, 64}) {
+        DeviceOptions device;
+        device.batches = batches;
+        device.streams = batches == 8 ? 1 : 3;
+        expect_parity(swatch(), options_of(150), device);
+    }
+}
+
+TEST(DeviceVoxelizer, FlatVoxelsAndARegionAreTheCpus) {
+    VoxelizeOptions options = options_of(0);
+    const Bounds box = plan_voxelize(hairy_swatch(), options_of(120)).bounds;
+    const double h = box.size().x / 100.0;
+    options.voxel_size = {h, 1.3 * h, 0.6 * h};
+    expect_parity(hairy_swatch(), options);
+    Bounds region;
+    region.grow(box.lo + box.size() * 0.3);
+    region.grow(box.lo + box.size() * 0.75);
+    options.bounds = region;
+    expect_parity(hairy_swatch(), options);
+}
+
+/// Runs the pipeline, expecting an Error.
+Error error_of(const VoxelizeOptions& options, const DeviceOptions& device) {
+    const VoxelizePlan plan = plan_voxelize(swatch(), options_of(60));
+    Progress silent;
+    try {
+        static_cast<void>(
+            voxelize_on_host_executor(swatch(), options, plan, device, silent, nullptr));
+    } catch (const Error& e) {
+        return e;
+    }
+    return Error(ErrorCode::Internal, "no error");
+}
+
+TEST(DeviceVoxelizer, LittleMemoryTakesSmallBatchesAndTooLittleIsOneLine) {
+    DeviceOptions device;
+    device.memory_bytes = 40 << 20;
+    expect_parity(swatch(), options_of(150), device);
+    device.memory_bytes = 4 << 20; // less than the sums of a block
+    const Error e = error_of(options_of(60), device);
+    EXPECT_EQ(e.code(), ErrorCode::OutOfMemory);
+    EXPECT_NE(std::string(e.what()).find("raise --device-memory"), std::string::npos) << e.what();
+}
+
+TEST(DeviceVoxelizer, ADeviceThatVanishesAtAnyLaunchIsOneLine) {
+    for (const std::int64_t launches : {0, 1, 3, 9, 15}) {
+        DeviceOptions device;
+        device.vanish_after = launches;
+        const Error e = error_of(options_of(60), device);
+        EXPECT_EQ(e.code(), ErrorCode::Device) << launches;
+        EXPECT_NE(std::string(e.what()).find("the device is gone"), std::string::npos) << e.what();
+    }
+}
+
+TEST(DeviceVoxelizer, WhatItDoesNotDoIsRefused) {
+    VoxelizeOptions options = options_of(60);
+    options.coverage = CoverageMode::Mask;
+    EXPECT_EQ(error_of(options, {}).code(), ErrorCode::Unsupported);
+    options.coverage = CoverageMode::Columns;
+    options.fit = FitMode::Last;
+    EXPECT_EQ(error_of(options, {}).code(), ErrorCode::Unsupported);
+    DeviceOptions device;
+    device.streams = 0;
+    EXPECT_EQ(error_of(options_of(60), device).code(), ErrorCode::InvalidArgument);
+}
+
+TEST(DeviceVoxelizer, CancelStops) {
+    const VoxelizePlan plan = plan_voxelize(swatch(), options_of(60));
+    Progress progress;
+    progress.cancel();
+    EXPECT_THROW(static_cast<void>(voxelize_on_host_executor(swatch(), options_of(60), plan, {},
+                                                             progress, nullptr)),
+                 Error);
+}
+
 } // namespace
 } // namespace heddle

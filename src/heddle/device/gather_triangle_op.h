@@ -1,0 +1,26 @@
+#pragma once
+
+#include <heddle/device/block_pairs_op.h>
+#include <heddle/device/dense_sums.h>
+#include <heddle/voxel/triangle_op.h>
+
+#include <cstddef>
+
+namespace heddle {
+
+/// Gathers one triangle in one block.
+struct GatherTriangleOp {
+    SurfaceView surfaces;
+    LatticeUnits units;
+    DenseSums sums;
+    const BlockPair* pairs;
+
+    HEDDLE_HD void operator()(std::size_t i) const {
+        const BatchBlock& block = sums.blocks[pairs[i].slot];
+        const TrianglePlace at = surfaces.place(pairs[i].primitive);
+        const DenseLobe to = sums.lobe(pairs[i].slot, surfaces.meshes[at.mesh].material);
+        add_triangle(surfaces, at, units, block.lo, block.lo + block.size, to, NoScratch{});
+    }
+};
+
+} // namespace heddle
