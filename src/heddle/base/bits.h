@@ -16,6 +16,15 @@ namespace heddle {
 #endif
 }
 
+/// The same of a word. @pre bits != 0
+[[nodiscard]] HEDDLE_INLINE int lowest_bit(std::uint64_t bits) {
+#if HEDDLE_DEVICE_PASS
+    return __ffsll(static_cast<long long>(bits)) - 1;
+#else
+    return std::countr_zero(bits);
+#endif
+}
+
 /// Bits that are set.
 [[nodiscard]] HEDDLE_INLINE int count_bits(std::uint64_t bits) {
 #if HEDDLE_DEVICE_PASS

@@ -270,10 +270,10 @@ void append_coverage(const OpenVoxel& voxel,
     c.z = to_fixed16(product ? 1.0 - voxel.seen.z : voxel.seen.z);
 }
 
-void append_footprints(const OpenLevel& level,
-                       std::size_t v,
-                       const LevelOptions& options,
-                       VoxelBlock& out) {
+HEDDLE_CLONES void append_footprints(const OpenLevel& level,
+                                     std::size_t v,
+                                     const LevelOptions& options,
+                                     VoxelBlock& out) {
     std::array<std::uint64_t, 3>& bits = out.footprints.emplace_back();
     for (int axis = 0; axis < 3; ++axis) {
         Footprint face(level.level, options.lattice.subvoxels);

@@ -19,12 +19,17 @@ inline constexpr float kSameLobe = 1e-4f;
 namespace detail {
 
 /// The mean of d d^T.
-[[nodiscard]] HEDDLE_HD inline SymmetricMatrix mean_moment(const DirectionSums& s) {
-    const double scale = 1.0 / static_cast<double>(s.weight);
+/// @param moment  6 sums, as DirectionSums::moment
+[[nodiscard]] HEDDLE_HD inline SymmetricMatrix mean_moment(const std::int64_t* moment,
+                                                           std::int64_t weight) {
+    const double scale = 1.0 / static_cast<double>(weight);
     const auto mean = [&](int k) {
-        return static_cast<float>(static_cast<double>(s.moment[k]) * scale);
+        return static_cast<float>(static_cast<double>(moment[k]) * scale);
     };
     return {mean(0), mean(1), mean(2), mean(3), mean(4), mean(5)};
+}
+[[nodiscard]] HEDDLE_HD inline SymmetricMatrix mean_moment(const DirectionSums& s) {
+    return mean_moment(s.moment, s.weight);
 }
 
 /// Sum of the squares of all nine entries of A - B.

@@ -1,12 +1,47 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <bit>
+#include <heddle/base/bits.h>
+
 #include <cstdint>
-#include <functional>
 
 namespace heddle {
+
+namespace detail {
+
+/// The Z-order of cell (q, p) of 8 x 8, bits of q first.
+[[nodiscard]] HEDDLE_HD constexpr int interleave(int q, int p) {
+    int z = 0;
+    for (int b = 0; b < 3; ++b) z |= (p >> b & 1) << (2 * b) | (q >> b & 1) << (2 * b + 1);
+    return z;
+}
+
+struct FootprintTables {
+    std::uint8_t cell[3][64]{}; ///< by level, below 3, and bit of a word of 8 x 8 columns
+    std::uint8_t straight[64]{};
+};
+[[nodiscard]] constexpr FootprintTables make_footprint_tables() {
+    FootprintTables out;
+    for (int i = 0; i < 64; ++i) {
+        out.straight[interleave(i / 8, i % 8)] = static_cast<std::uint8_t>(i);
+        for (int level = 0; level < 3; ++level) {
+            const int z = interleave(i / 8 >> level, i % 8 >> level);
+            out.cell[level][i] = static_cast<std::uint8_t>(z);
+        }
+    }
+    return out;
+}
+/// Cell, in Z-order, that a bit of a word of 8 x 8 columns lies in at a level below 3.
+[[nodiscard]] HEDDLE_INLINE int cell_of_column(int level, int bit) {
+    static constexpr FootprintTables kTables = make_footprint_tables();
+    return kTables.cell[level][bit];
+}
+/// 8 q + p of a cell's number in Z-order.
+[[nodiscard]] HEDDLE_INLINE int straight(int z) {
+    static constexpr FootprintTables kTables = make_footprint_tables();
+    return kTables.straight[z];
+}
+
+} // namespace detail
 
 /// Columns of a voxel's face counted in n x n cells; n = 8, and 4 of it.
 ///
@@ -15,100 +50,104 @@ class Footprint {
 public:
     /// @param level      of the voxel
     /// @param subvoxels  of level 0, per voxel axis
-    Footprint(int level, int subvoxels) : level_(level), n_(subvoxels) {}
+    HEDDLE_HD Footprint(int level, int subvoxels) : level_(level), n_(subvoxels) {}
 
     /// Counts the bits of word `at` of the voxel's columns along one axis.
-    void add(std::uint64_t at, std::uint64_t word) {
+    HEDDLE_INLINE void add(std::uint64_t at, std::uint64_t word) {
         if (word == 0) return;
         if (level_ >= 3) {
-            count_[at >> (2 * (level_ - 3))] += std::popcount(word);
+            count_[at >> (2 * (level_ - 3))] += count_bits(word);
             return;
         }
         if (n_ == 8) { // one cell a column, or four or sixteen columns a cell
             const std::uint64_t first = at << (2 * (3 - level_));
-            const auto& cell = kCellOfColumn[static_cast<std::size_t>(level_)];
             for (; word != 0; word &= word - 1) {
-                ++count_[first + cell[static_cast<std::size_t>(std::countr_zero(word))]];
+                const int cell = detail::cell_of_column(level_, lowest_bit(word));
+                ++count_[first + static_cast<std::uint64_t>(cell)];
             }
             return;
         }
         const int cells = 8 >> level_; // per axis of the word
         const int spread = spread_of();
         for (; word != 0; word &= word - 1) {
-            const int bit = std::countr_zero(word);
+            const int bit = lowest_bit(word);
             const int p = bit % n_ * cells / n_;
             const int q = bit / n_ * cells / n_;
             for (int k = 0; k < spread * spread; ++k) {
-                count_[(at << (2 * (3 - level_))) + interleave(q + k / spread, p + k % spread)] +=
-                    1;
+                count_[(at << (2 * (3 - level_))) +
+                       detail::interleave(q + k / spread, p + k % spread)] += 1;
             }
         }
     }
 
     /// n x n bits, bit q n + p: as many as the covered share of the face rounds to, the fullest cells
     /// first, of equally full ones the lower: so the bits' own share is the coverage to 1 / (2 n n).
-    [[nodiscard]] std::uint64_t bits(int n) const {
-        std::array<std::int64_t, 64> keys; // fuller cells first, of equally full ones the lower
-        const int merged = n == 8 ? 1 : 4;
+    [[nodiscard]] HEDDLE_INLINE std::uint64_t bits(int n) const {
+        constexpr int kNarrow = 11; // four cells of at most 4^11 columns, and 6 bits below them
+        if (level_ > kNarrow) {
+            return n == 8 ? bits_of<8, std::int64_t>() : bits_of<4, std::int64_t>();
+        }
+        return n == 8 ? bits_of<8, std::int32_t>() : bits_of<4, std::int32_t>();
+    }
+
+private:
+    template <int N, typename Key>
+    [[nodiscard]] HEDDLE_INLINE std::uint64_t bits_of() const {
+        Key keys[N * N]; // fuller cells first, of equally full ones the lower
+        constexpr int kMerged = N == 8 ? 1 : 4;
         std::int64_t total = 0;
-        for (int z = 0; z < n * n; ++z) {
+        Key any = 0;
+        for (int z = 0; z < N * N; ++z) {
             std::int64_t count = 0;
-            for (int k = 0; k < merged; ++k)
-                count += count_[static_cast<std::size_t>(z * merged + k)];
-            int p = 0, q = 0;
-            for (int b = 0; b < 3; ++b) {
-                p |= (z >> (2 * b) & 1) << b;
-                q |= (z >> (2 * b + 1) & 1) << b;
-            }
-            keys[static_cast<std::size_t>(z)] = count << 6 | (63 - (q * n + p));
+            for (int k = 0; k < kMerged; ++k) count += count_[z * kMerged + k];
+            const int at = detail::straight(z) / 8 * N + detail::straight(z) % 8;
+            keys[at] = static_cast<Key>(count << 6 | (63 - at));
+            any |= keys[at];
             total += count;
         }
         const std::int64_t across = (std::int64_t{n_} << level_) * spread_of();
         const std::int64_t columns = across * across;
-        const std::int64_t set = (2 * total * n * n + columns) / (2 * columns);
-        const auto end = keys.begin() + std::min<std::int64_t>(set, n * n);
-        if (end != keys.begin() + n * n) {
-            std::nth_element(keys.begin(), end, keys.begin() + n * n, std::greater<>{});
-        }
+        const std::int64_t set = (2 * total * N * N + columns) / (2 * columns);
+        if (set == 0) return 0;
+        const Key least = least_of(keys, any, static_cast<Key>(set));
         std::uint64_t out = 0;
-        for (auto key = keys.begin(); key != end; ++key)
-            out |= std::uint64_t{1} << (63 - (*key & 63));
+        for (int i = 0; i < N * N; ++i) {
+            out |= static_cast<std::uint64_t>(keys[i] >= least ? 1 : 0) << i;
+        }
         return out;
     }
-
-private:
+    /// The least of the `set` largest keys, which all differ: bit by bit, which takes no order.
+    /// @param any  all keys' bits
+    template <int kCount, typename Key>
+    [[nodiscard]] HEDDLE_INLINE static Key least_of(const Key (&keys)[kCount], Key any, Key set) {
+        Key least = 0;
+        for (Key step = highest_bit(any); step > 0; step >>= 1) {
+            const Key higher = least | step;
+            Key lanes[8]{};
+            for (int i = 0; i < kCount; i += 8) {
+                for (int k = 0; k < 8; ++k) lanes[k] -= keys[i + k] >= higher ? -1 : 0;
+            }
+            Key above = 0;
+            for (const Key n : lanes) above += n;
+            if (above >= set) least = higher;
+        }
+        return least;
+    }
+    template <typename Key>
+    [[nodiscard]] HEDDLE_INLINE static Key highest_bit(Key bits) {
+        Key out = 32; // keys have 6 bits or more
+        while (bits >= 2 * out) out *= 2;
+        return out;
+    }
     /// Cells per axis that one column covers, where there are fewer columns than cells.
-    [[nodiscard]] int spread_of() const {
-        const int columns = n_ << std::min(level_, 3);
+    [[nodiscard]] HEDDLE_INLINE int spread_of() const {
+        const int columns = n_ << (level_ < 3 ? level_ : 3);
         return columns < 8 ? 8 / columns : 1;
     }
-    [[nodiscard]] static constexpr std::uint64_t interleave(int q, int p) {
-        std::uint64_t z = 0;
-        for (int b = 0; b < 3; ++b) {
-            z |= static_cast<std::uint64_t>(p >> b & 1) << (2 * b);
-            z |= static_cast<std::uint64_t>(q >> b & 1) << (2 * b + 1);
-        }
-        return z;
-    }
-    /// By level, below 3, and bit of a word of 8 x 8 columns.
-    static constexpr auto make_cells() {
-        std::array<std::array<std::uint8_t, 64>, 3> out{};
-        for (int level = 0; level < 3; ++level) {
-            for (int bit = 0; bit < 64; ++bit) {
-                out[static_cast<std::size_t>(level)][static_cast<std::size_t>(bit)] =
-                    static_cast<std::uint8_t>(interleave(bit / 8 >> level, bit % 8 >> level));
-            }
-        }
-        return out;
-    }
-    static const std::array<std::array<std::uint8_t, 64>, 3> kCellOfColumn;
 
     int level_;
     int n_;
-    std::array<std::int64_t, 64> count_{};
+    std::int64_t count_[64]{};
 };
-
-inline constexpr std::array<std::array<std::uint8_t, 64>, 3> Footprint::kCellOfColumn =
-    Footprint::make_cells();
 
 } // namespace heddle

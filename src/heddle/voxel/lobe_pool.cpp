@@ -1,41 +1,8 @@
 #include <heddle/voxel/lobe_pool.h>
 
-#include <heddle/sggx/moments.h>
-#include <heddle/sggx/pack.h>
+#include <heddle/voxel/stored_lobe.h>
 
 namespace heddle {
-namespace {
-
-SymmetricMatrix to_moment(const std::int64_t (&sums)[6], std::int64_t weight) {
-    const double inv = 1.0 / static_cast<double>(weight);
-    const auto entry = [&](std::size_t i) {
-        return static_cast<float>(static_cast<double>(sums[i]) * inv);
-    };
-    return {entry(0), entry(1), entry(2), entry(3), entry(4), entry(5)};
-}
-
-std::uint8_t mean8(std::int64_t sum, std::int64_t weight) {
-    return static_cast<std::uint8_t>(std::clamp<std::int64_t>((sum + weight / 2) / weight, 0, 255));
-}
-
-LobeMaps mean_maps(const MapSums& sums, std::int64_t weight) {
-    LobeMaps mean;
-    for (std::size_t i = 0; i < 3; ++i) mean.albedo[i] = mean8(sums.albedo[i], weight);
-    mean.roughness = mean8(sums.roughness, weight);
-    mean.metalness = mean8(sums.metalness, weight);
-    mean.anisotropy = mean8(sums.anisotropy, weight);
-    return mean;
-}
-
-PackedSggx fit_tangents(const MapSums& sums) {
-    std::int64_t moment[6];
-    std::copy_n(sums.tangent.begin(), 6, moment);
-    const std::int64_t trace = moment[0] + moment[1] + moment[2];
-    return trace > 0 ? pack(fit_sggx(to_moment(moment, trace))) : PackedSggx{};
-}
-
-} // namespace
-
 MapSums scale_maps(const MapSums& maps, std::int64_t whole, std::int64_t part) {
     const double factor = static_cast<double>(whole) / static_cast<double>(part);
     const auto scale = [&](std::int64_t x) {
@@ -64,7 +31,7 @@ PackedSggx RecentFits::fit(const std::int64_t (&moment)[6], std::int64_t weight)
     if (entry.weight != weight || !std::equal(moment, moment + 6, entry.moment)) {
         std::copy_n(moment, 6, entry.moment);
         entry.weight = weight;
-        entry.sggx = pack(fit_sggx(to_moment(moment, weight)));
+        entry.sggx = fit_packed(moment, weight);
     }
     return entry.sggx;
 }
@@ -79,11 +46,8 @@ void append_lobes(const LobePool& pool,
     for (std::size_t i = 0; i < count; ++i) total += pool.sums[i].weight;
     for (std::size_t i = 0; i < count; ++i) {
         const DirectionSums& lobe = pool.sums[i];
-        const auto share = static_cast<double>(lobe.weight) / static_cast<double>(total);
-        out.lobes.push_back(
-            {fits.fit(lobe.moment, lobe.weight),
-             static_cast<std::uint8_t>(std::max(1, static_cast<int>(share * 255.0 + 0.5))),
-             static_cast<std::uint8_t>(lobe.material)});
+        out.lobes.push_back({fits.fit(lobe.moment, lobe.weight), share_of(lobe.weight, total),
+                             static_cast<std::uint8_t>(lobe.material)});
         if (fields.maps()) out.maps.push_back(mean_maps(pool.maps[i], lobe.weight));
         if (fields.tangents) out.tangents.push_back(fit_tangents(pool.maps[i]));
     }

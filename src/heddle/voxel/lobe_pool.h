@@ -36,61 +36,85 @@ HEDDLE_INLINE void add_maps(MapSums& a, const MapSums& b) {
 /// The sums of a lobe whose weight goes from `part` to `whole`, means unchanged.
 [[nodiscard]] MapSums scale_maps(const MapSums& maps, std::int64_t whole, std::int64_t part);
 
+/// Lobes that lie in a row, before they are stored: of a LobePool, or where an executor keeps them.
+struct LobeRow {
+    int count = 0;                 ///< at most kMaxPool
+    DirectionSums* sums = nullptr; ///< the first
+    MapSums* maps = nullptr;       ///< the first one's; null without
+};
+
+namespace detail {
+
+/// Puts each of the first `count` values where `place` says, by a copy.
+template <typename T>
+HEDDLE_INLINE void put_in_place(T* values, int count, const std::uint8_t (&place)[kMaxLobes]) {
+    T before[kMaxLobes];
+    for (int i = 0; i < count; ++i) before[i] = values[i];
+    for (int i = 0; i < count; ++i) values[place[i]] = before[i];
+}
+
+} // namespace detail
+
 /// Lines up at most kMaxLobes lobes as a voxel stores them: the heaviest first, the others so that the
 /// last one merges first.
 /// @param make_lobes  (DirectionSums*, int count) -> how lobes are compared and merged (agglomerate.h)
-/// @param with_maps   pool.maps count
 /// @return            VoxelBlock::merge_order
 template <typename MakeLobes>
-HEDDLE_INLINE std::uint32_t line_up(LobePool& pool, bool with_maps, const MakeLobes& make_lobes) {
-    if (pool.count < 2) return 0;
-    const auto count = static_cast<std::size_t>(pool.count);
-    std::array<DirectionSums, kMaxLobes> sums;
-    std::array<std::int64_t, kMaxLobes> weight;
-    std::copy_n(pool.sums.begin(), count, sums.begin());
-    for (std::size_t i = 0; i < count; ++i) weight[i] = sums[i].weight;
-    std::array<LobeMerge, kMaxLobes> merges;
-    if (count == 2) {
+HEDDLE_INLINE std::uint32_t line_up(const LobeRow& row, const MakeLobes& make_lobes) {
+    if (row.count < 2) return 0;
+    std::int64_t weight[kMaxLobes];
+    for (int i = 0; i < row.count; ++i) weight[i] = row.sums[i].weight;
+    LobeMerge merges[kMaxLobes];
+    if (row.count == 2) {
         merges[0] = {0, 1};
     } else {
-        auto lobes = make_lobes(sums.data(), pool.count);
-        agglomerate(pool.count, 1, lobes, merges.data());
+        DirectionSums merging[kMaxLobes];
+        for (int i = 0; i < row.count; ++i) merging[i] = row.sums[i];
+        auto lobes = make_lobes(merging, row.count);
+        agglomerate(row.count, 1, lobes, merges);
     }
-    const MergeOrder order = order_merges(pool.count, merges.data(), weight.data());
-    std::copy_n(pool.sums.begin(), count, sums.begin());
-    for (std::size_t i = 0; i < count; ++i) pool.sums[order.place[i]] = sums[i];
-    if (with_maps) {
-        std::array<MapSums, kMaxLobes> maps;
-        std::copy_n(pool.maps.begin(), count, maps.begin());
-        for (std::size_t i = 0; i < count; ++i) pool.maps[order.place[i]] = maps[i];
-    }
+    const MergeOrder order = order_merges(row.count, merges, weight);
+    detail::put_in_place(row.sums, row.count, order.place);
+    if (row.maps != nullptr) detail::put_in_place(row.maps, row.count, order.place);
     return order.targets;
 }
 
-/// Merges the pool's closest lobes until `keep` are left, at most kMaxLobes, and lines them up.
+/// Merges the closest of the lobes until `keep` are left, at most kMaxLobes, moves those to the front
+/// and lines them up.
+/// @param row   count becomes how many are left
 /// @param same  distance below which lobes merge even so (agglomerate.h)
 /// @return      as line_up
 template <typename MakeLobes>
 HEDDLE_INLINE std::uint32_t
-reduce(LobePool& pool, int keep, bool with_maps, const MakeLobes& make_lobes, float same = 0.0f) {
-    if (pool.count > keep || (pool.count > 1 && same > 0.0f)) {
-        std::array<LobeMerge, kMaxPool> merges;
-        auto lobes = make_lobes(pool.sums.data(), pool.count);
-        const int made = agglomerate(pool.count, keep, lobes, merges.data(), same);
-        if (with_maps) {
+reduce(LobeRow& row, int keep, const MakeLobes& make_lobes, float same = 0.0f) {
+    if (row.count > keep || (row.count > 1 && same > 0.0f)) {
+        LobeMerge merges[kMaxPool];
+        auto lobes = make_lobes(row.sums, row.count);
+        const int made = agglomerate(row.count, keep, lobes, merges, same);
+        const auto count = static_cast<std::size_t>(row.count);
+        if (row.maps != nullptr) {
             for (int k = 0; k < made; ++k) {
-                const LobeMerge& m = merges[static_cast<std::size_t>(k)];
-                add_maps(pool.maps[m.into], pool.maps[m.from]);
+                add_maps(row.maps[merges[k].into], row.maps[merges[k].from]);
             }
+            compact_lobes(std::span(row.maps, count), merges, made);
         }
-        const auto count = static_cast<std::size_t>(pool.count);
-        if (with_maps) compact_lobes(std::span(pool.maps).first(count), merges.data(), made);
-        pool.count = compact_lobes(std::span(pool.sums).first(count), merges.data(), made);
+        row.count = compact_lobes(std::span(row.sums, count), merges, made);
     }
-    return line_up(pool, with_maps, make_lobes);
+    return line_up(row, make_lobes);
 }
 
-/// The default way of reduce() and line_up(): by second moments.
+/// The same of a pool.
+/// @param with_maps  pool.maps count
+template <typename MakeLobes>
+HEDDLE_INLINE std::uint32_t
+reduce(LobePool& pool, int keep, bool with_maps, const MakeLobes& make_lobes, float same = 0.0f) {
+    LobeRow row{pool.count, pool.sums.data(), with_maps ? pool.maps.data() : nullptr};
+    const std::uint32_t order = reduce(row, keep, make_lobes, same);
+    pool.count = row.count;
+    return order;
+}
+
+/// The default way of reduce(): by second moments.
 struct ByMoments {
     HEDDLE_INLINE MomentLobes operator()(DirectionSums* lobes, int count) const {
         return MomentLobes(std::span(lobes, static_cast<std::size_t>(count)));
