@@ -3,12 +3,13 @@
 #include <heddle/base/error.h>
 #include <heddle/base/lender.h>
 #include <heddle/base/parallel.h>
+#include <heddle/lod/built_block.h>
 #include <heddle/lod/correlation.h>
 #include <heddle/lod/join_pieces.h>
-#include <heddle/lod/upper_levels.h>
 #include <heddle/voxel/block_keeper.h>
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -62,6 +63,15 @@ struct VoxelBox {
         for (int k = 0; k < 3; ++k) {
             lo[k] = std::min(lo[k], a[k]);
             hi[k] = std::max(hi[k], b[k]);
+        }
+    }
+    void grow(const VoxelLeaf& leaf) {
+        for (int x = 0; x < 8; ++x) {
+            for (std::uint64_t w = leaf.active[static_cast<std::size_t>(x)]; w != 0; w &= w - 1) {
+                const int bit = std::countr_zero(w);
+                const Vec3i at = leaf.origin + Vec3i{x, bit >> 3, bit & 7};
+                grow(at, at);
+            }
         }
     }
     void grow(const OpenLevel& level) {
@@ -261,6 +271,36 @@ void LevelBuilder::visit(std::size_t rank, const VoxelBlock& block) {
     s.upper->take(rank, std::move(top));
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     const std::scoped_lock lock(s.mutex);
+    s.seconds += spent.count();
+}
+
+const LevelOptions* LevelBuilder::options_of_built() const {
+    const LevelOptions& options = state_->options;
+    const bool can = options.merge.method == LodMethod::Moments &&
+                     options.coverage == CoverageRule::Union && !options.fields.correlation;
+    return can ? &options : nullptr;
+}
+
+int LevelBuilder::built_levels() const {
+    return std::min(state_->top, kBlockLevel);
+}
+
+bool LevelBuilder::wants_top() const {
+    return state_->top > kBlockLevel;
+}
+
+void LevelBuilder::accept(std::size_t rank, const VoxelBlock& block, BuiltBlock& built) {
+    State& s = *state_;
+    const auto start = std::chrono::steady_clock::now();
+    for (int l = 1; l <= built_levels(); ++l) {
+        s.store(l, rank, built.level[static_cast<std::size_t>(l - 1)]);
+    }
+    s.upper->take(rank, std::move(built.top));
+    VoxelBox box;
+    for (const VoxelLeaf& leaf : block.leaves) box.grow(leaf);
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+    const std::scoped_lock lock(s.mutex);
+    if (!block.leaves.empty()) s.box.grow(box.lo, box.hi);
     s.seconds += spent.count();
 }
 

@@ -22,6 +22,9 @@ struct LodOptions {
     std::uint64_t seed = 0;     ///< of the methods `random` and `wasserstein`
 };
 
+struct BuiltBlock;
+struct LevelOptions;
+
 /// Levels above 0 that an object has: until at most two voxels per axis are left.
 /// @param lo, hi  its first and last voxel of level 0, inclusive
 [[nodiscard]] int level_count(Vec3i lo, Vec3i hi);
@@ -45,6 +48,19 @@ public:
     void visit(std::size_t rank, const VoxelBlock& block) override;
     void sample(const VoxelGridInfo& info, Vec3i index, const VoxelBlock& block) override;
     void plan(std::span<const Vec3i> blocks, double scale, VoxelizePlan& plan) override;
+
+    /// What levels that come by accept() are built with, after begin(). Null: blocks have to be visited,
+    /// since the method is not `moments`, columns are missing, or neighbours share something.
+    [[nodiscard]] const LevelOptions* options_of_built() const;
+    /// Levels that accept() wants of each block, after begin(): 0 to kBlockLevel.
+    [[nodiscard]] int built_levels() const;
+    /// True if it wants BuiltBlock::top too.
+    [[nodiscard]] bool wants_top() const;
+    /// Takes a block whose levels are built, in place of visit(); from several threads.
+    /// @param rank   as visit()
+    /// @param block  level 0; sums are not needed
+    /// @param built  taken apart
+    void accept(std::size_t rank, const VoxelBlock& block, BuiltBlock& built);
 
     /// The levels above 0, after the last visit.
     /// @param level0  the blocks that were visited

@@ -129,13 +129,6 @@ void merge_lobes(const OpenLevel& below,
     }
 }
 
-/// part / whole for levels whose counts pass 64 bits in fraction16.
-std::uint16_t wide_fraction16(std::int64_t part, double whole) {
-    if (whole < 0x1p46) return fraction16(part, static_cast<std::int64_t>(whole));
-    return static_cast<std::uint16_t>(
-        std::min(65535.0, static_cast<double>(part) / whole * 65535.0 + 0.5));
-}
-
 std::uint16_t to_fixed16(double x) {
     return static_cast<std::uint16_t>(std::clamp(x, 0.0, 1.0) * 65535.0 + 0.5);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <heddle/base/platform.h>
 #include <heddle/lod/merge_children.h>
 #include <heddle/voxel/lattice_units.h>
 #include <heddle/voxel/voxel_grid.h>
@@ -85,10 +86,18 @@ struct OpenLevel {
 };
 
 /// Which quarter of the parent's columns along `axis` child (x, y, z), each 0 or 1, fills.
-[[nodiscard]] constexpr int quarter(Vec3i child, int axis) {
+[[nodiscard]] HEDDLE_HD constexpr int quarter(Vec3i child, int axis) {
     const int p = axis == 0 ? 1 : 0;
     const int q = axis == 2 ? 1 : 2;
     return 2 * child[q] + child[p];
+}
+
+/// part / whole for levels whose counts pass 64 bits in fraction16.
+/// @param whole  an integer
+[[nodiscard]] HEDDLE_HD inline std::uint16_t wide_fraction16(std::int64_t part, double whole) {
+    if (whole < 0x1p46) return fraction16(part, static_cast<std::int64_t>(whole));
+    const double share = static_cast<double>(part) / whole * 65535.0 + 0.5;
+    return static_cast<std::uint16_t>(share < 65535.0 ? share : 65535.0);
 }
 
 /// Adds what child (x, y, z) shows to a parent that started as open_parent() gives it.
