@@ -3,8 +3,8 @@
 #include <heddle/base/error.h>
 #include <heddle/base/parallel.h>
 #include <heddle/device/batch_plan.h>
-#include <heddle/device/blocks_from_level.h>
 #include <heddle/device/gather_batch.h>
+#include <heddle/device/hand_over.h>
 #include <heddle/device/upload_fibers.h>
 #include <heddle/device/upload_surfaces.h>
 #include <heddle/device/voxelize_device.h>
@@ -78,6 +78,7 @@ private:
     struct Lane {
         std::unique_ptr<Exec> exec;
         gpu::Array<std::uint32_t> slot_of_block;
+        BatchLevels built;
     };
 
     [[nodiscard]] std::unique_ptr<Exec> make_exec();
@@ -86,7 +87,7 @@ private:
     [[nodiscard]] std::vector<BatchRange> plan_work() const;
     void work(std::size_t streams, const std::vector<BatchRange>& batches, Progress& progress);
     void run_batch(Lane& lane, BatchRange range, Progress& progress);
-    void finish_batch(Exec& exec, BatchRange range, const BlockBatch& batch, LevelArrays& level0);
+    void finish_batch(Lane& lane, BatchRange range, const BlockBatch& batch, LevelArrays& level0);
     [[nodiscard]] BlockBatch batch_of(BatchRange range) const;
 
     const VoxelizeContext& context_;
@@ -219,7 +220,7 @@ void DeviceRun<Exec>::run_batch(Lane& lane, BatchRange range, Progress& progress
     for (const auto& first : batch.first_pair) pairs += static_cast<std::int64_t>(first.back());
     try {
         LevelArrays level0 = gather_batch(*lane.exec, scene_, batch, lane.slot_of_block.data());
-        finish_batch(*lane.exec, range, batch, level0);
+        finish_batch(lane, range, batch, level0);
     } catch (const Error& e) {
         if (e.code() != ErrorCode::OutOfMemory || range.end - range.begin < 2) throw;
         const std::size_t middle = range.begin + (range.end - range.begin) / 2;
@@ -232,32 +233,13 @@ void DeviceRun<Exec>::run_batch(Lane& lane, BatchRange range, Progress& progress
 }
 
 template <typename Exec>
-void DeviceRun<Exec>::finish_batch(Exec& exec,
+void DeviceRun<Exec>::finish_batch(Lane& lane,
                                    BatchRange range,
                                    const BlockBatch& batch,
                                    LevelArrays& level0) {
-    exec.set_stage("store");
-    HostLevel host;
-    const auto down = [&](auto& to, const auto& from) {
-        to.resize(from.size());
-        exec.download(std::span(to), from.data());
-    };
-    down(host.key, level0.key);
-    down(host.hits, level0.hits);
-    down(host.first_lobe, level0.first_lobe);
-    down(host.order, level0.order);
-    down(host.columns, level0.columns);
-    down(host.lobes, level0.lobes);
-    down(host.maps, level0.maps);
-    level0 = {};
-    FitOptions options = context_.fit;
-    options.fields.masks = options.fields.masks || levels_ != nullptr;
-    std::vector<VoxelBlock> blocks = blocks_from_level(host, batch.blocks, options);
-    parallel_chunks(blocks.size(), 1, [&](std::size_t b, std::size_t) {
-        if (levels_ != nullptr) levels_->visit(range.begin + b, blocks[b]);
-        if (!context_.fit.fields.masks) drop_sums(blocks[b]);
-        keeper_->keep(range.begin + b, blocks[b]);
-    });
+    build_batch_levels(*lane.exec, std::move(level0), batch.blocks.size(),
+                       batch_settings(context_.fit, levels_), lane.built);
+    hand_over(lane.built, range.begin, batch.blocks, context_.fit.fields.masks, *keeper_, levels_);
 }
 
 template <typename Exec>

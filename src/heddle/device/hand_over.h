@@ -1,0 +1,32 @@
+#pragma once
+
+#include <heddle/device/batch_levels.h>
+#include <heddle/device/dense_sums.h>
+#include <heddle/lod/build_levels.h>
+#include <heddle/voxel/block_keeper.h>
+#include <heddle/voxel/fit_block.h>
+
+#include <cstddef>
+#include <span>
+
+namespace heddle {
+
+/// What is to be made of a batch's level 0: all levels if the builder takes them built, else level 0 with the
+/// sums that it builds them from.
+/// @param levels  after begin(); null: no levels above 0 are wanted
+[[nodiscard]] BatchSettings batch_settings(const FitOptions& fit, const LevelBuilder* levels);
+
+/// Hands a batch's blocks on, several threads at a time.
+/// @param built      by build_batch_levels() with batch_settings()
+/// @param first      rank of the batch's first block in the keeper and for the builder
+/// @param blocks     of the batch
+/// @param keep_sums  VoxelizeOptions::keep_sums
+/// @param levels     may be null
+void hand_over(const BatchLevels& built,
+               std::size_t first,
+               std::span<const BatchBlock> blocks,
+               bool keep_sums,
+               BlockKeeper& keeper,
+               LevelBuilder* levels);
+
+} // namespace heddle
