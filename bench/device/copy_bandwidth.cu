@@ -11,7 +11,7 @@ namespace {
 struct CopyOp {
     const ulonglong2* from;
     ulonglong2* to;
-    HEDDLE_D void operator()(std::size_t i) const { to[i] = from[i]; }
+    HEDDLE_HD void operator()(std::size_t i) const { to[i] = from[i]; }
 };
 
 } // namespace
