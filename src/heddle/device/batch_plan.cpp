@@ -2,7 +2,6 @@
 
 #include <heddle/device/dense_sums.h>
 #include <heddle/device/gather_fibers_op.h>
-#include <heddle/sggx/direction_sums.h>
 
 #include <algorithm>
 
@@ -15,8 +14,7 @@ constexpr std::int64_t kMostBlocks = (std::int64_t{1} << 31) / kBlockCells - 1;
 /// Part of a block's voxels that are there: cloth has .1 to .4.
 constexpr double kFill = 0.4;
 
-/// Per voxel of level 0: what is kept of it, and the scans that find it.
-constexpr std::int64_t kBytesPerVoxel = 8 + 4 + 4 + 4 + 24 + sizeof(DirectionSums);
+/// The scans that find voxels.
 constexpr std::int64_t kBytesPerCell = 2 * (1 + 4);
 
 /// Chords of a piece of yarn, about: its frames and counts.
@@ -39,18 +37,21 @@ std::vector<std::uint32_t> occupied_blocks(const PairCounts& counts) {
 std::int64_t predict_batch_bytes(std::int64_t blocks,
                                  const std::array<std::int64_t, kPrimitiveKinds>& pairs,
                                  const BatchNeeds& needs) {
-    const std::int64_t planes = blocks * std::clamp<std::int64_t>(needs.materials, 1, 3);
-    const double voxels = kFill * static_cast<double>(blocks) * kBlockCells;
-    const double per_voxel = static_cast<double>(kBytesPerVoxel) +
-                             (needs.with_maps ? static_cast<double>(sizeof(MapSums)) : 0.0);
-    std::int64_t sum =
-        DenseSums::byte_count(blocks, planes, needs.with_maps) +
-        blocks * kBlockCells * kBytesPerCell +
-        static_cast<std::int64_t>(voxels * per_voxel * (needs.with_levels ? 2.0 : 1.5));
-    for (const std::int64_t n : pairs) sum += n * static_cast<std::int64_t>(sizeof(BlockPair));
-    const std::int64_t yarns = pairs[static_cast<std::size_t>(PrimitiveKind::Yarn)];
-    return sum + yarns * static_cast<std::int64_t>(sizeof(YarnPair) + 36 +
-                                                   kFramesPerYarn * sizeof(YarnFrame));
+    const std::int64_t materials = std::clamp<std::int64_t>(needs.materials, 1, 3);
+    const auto voxels =
+        static_cast<std::int64_t>(kFill * static_cast<double>(blocks) * kBlockCells);
+    const std::int64_t lobes =
+        voxels * std::min<std::int64_t>(materials, needs.made.level0.max_lobes);
+    BatchSettings level0 = needs.made;
+    level0.levels = 0;
+    // the sums are there while level 0 is written, and gone when it is stored
+    std::int64_t gather = DenseSums::byte_count(blocks, blocks * materials, level0.with_maps()) +
+                          blocks * kBlockCells * kBytesPerCell +
+                          predict_level_bytes(blocks, voxels, lobes, level0);
+    for (const std::int64_t n : pairs) gather += n * static_cast<std::int64_t>(sizeof(BlockPair));
+    gather += pairs[number_of(PrimitiveKind::Yarn)] *
+              static_cast<std::int64_t>(sizeof(YarnPair) + 36 + kFramesPerYarn * sizeof(YarnFrame));
+    return std::max(gather, predict_level_bytes(blocks, voxels, lobes, needs.made));
 }
 
 std::vector<BatchRange> plan_batches(const BlockOrder& order,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <heddle/device/batch_levels.h>
 #include <heddle/device/block_pairs_op.h>
 #include <heddle/voxel/block_order.h>
 #include <heddle/voxel/voxel_grid.h>
@@ -25,8 +26,7 @@ struct BatchRange {
 /// What decides how much a block takes.
 struct BatchNeeds {
     std::int64_t materials = 1; ///< of the geometry
-    bool with_maps = false;     ///< map sums are kept
-    bool with_levels = true;    ///< levels above 0 are built
+    BatchSettings made;         ///< of its level 0
 };
 
 /// Bytes of device memory that blocks take while they are a batch, by what is known before: sums, pairs,

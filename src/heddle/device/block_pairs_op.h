@@ -13,8 +13,19 @@
 namespace heddle {
 
 /// What primitives are gathered by, each its own way.
-enum class PrimitiveKind : std::uint8_t { Plain, Yarn, Triangle };
-constexpr int kPrimitiveKinds = 3;
+enum class PrimitiveKind : std::uint8_t {
+    Plain,   ///< a piece of a single curve
+    Yarn,    ///< a piece of a yarn of fibers
+    Triangle ///< and on: by its mesh's SurfaceKind
+};
+constexpr std::size_t kPrimitiveKinds = 5;
+
+[[nodiscard]] HEDDLE_HD constexpr std::size_t number_of(PrimitiveKind kind) {
+    return static_cast<std::size_t>(kind);
+}
+[[nodiscard]] HEDDLE_HD constexpr std::size_t number_of(SurfaceKind kind) {
+    return number_of(PrimitiveKind::Triangle) + static_cast<std::size_t>(kind);
+}
 
 /// A primitive and a block of the batch that it touches.
 struct BlockPair {
@@ -28,9 +39,8 @@ static_assert(sizeof(BlockPair) == 16);
 struct CountPairs {
     std::uint32_t* counts[kPrimitiveKinds]; ///< per block of the range; null: no such primitives
 
-    HEDDLE_HD void
-    add(PrimitiveKind kind, std::uint64_t, std::uint64_t block, std::uint32_t) const {
-        gpu::atomic_add(counts[static_cast<int>(kind)] + block, 1);
+    HEDDLE_HD void add(std::size_t kind, std::uint64_t, std::uint64_t block, std::uint32_t) const {
+        gpu::atomic_add(counts[kind] + block, 1);
     }
 };
 
@@ -43,15 +53,14 @@ struct ListPairs {
 
     static constexpr std::uint32_t kNoSlot = 0xffffffffu;
 
-    HEDDLE_HD void add(PrimitiveKind kind,
+    HEDDLE_HD void add(std::size_t kind,
                        std::uint64_t primitive,
                        std::uint64_t block,
                        std::uint32_t material) const {
         const std::uint32_t slot = slot_of_block[block];
         if (slot == kNoSlot) return;
-        const auto k = static_cast<int>(kind);
-        const std::uint64_t at = gpu::atomic_add(next[k] + slot, 1);
-        pairs[k][at] = {primitive, slot, 0};
+        const std::uint64_t at = gpu::atomic_add(next[kind] + slot, 1);
+        pairs[kind][at] = {primitive, slot, 0};
         gpu::atomic_or(&blocks[slot].materials[material / 64], std::uint64_t{1} << (material % 64));
     }
 };
@@ -66,8 +75,9 @@ struct WalkSpanOp {
     HEDDLE_HD void operator()(std::size_t span) const {
         const FiberPiece whole = fibers.whole_span(span);
         const CurveSetView& set = fibers.sets[whole.set];
-        Visit visit{*this, set.length != nullptr ? PrimitiveKind::Yarn : PrimitiveKind::Plain, 0,
-                    set.material};
+        const PrimitiveKind kind =
+            set.length != nullptr ? PrimitiveKind::Yarn : PrimitiveKind::Plain;
+        Visit visit{*this, number_of(kind), 0, set.material};
         for (std::uint32_t part = 0; part < whole.parts; ++part) {
             visit.id = std::uint64_t{span} << 16 | part;
             for_each_block(fibers, part_of(whole, part), range, visit);
@@ -77,7 +87,7 @@ struct WalkSpanOp {
 private:
     struct Visit {
         const WalkSpanOp& op;
-        PrimitiveKind kind;
+        std::size_t kind;
         std::uint64_t id;
         std::uint32_t material;
         HEDDLE_HD void operator()(int x, int y, int z) const {
@@ -100,16 +110,16 @@ struct WalkTriangleOp {
         const std::array<std::uint32_t, 3> c = mesh.triangles[at.triangle];
         const Vec3f corners[3] = {mesh.positions[c[0]], mesh.positions[c[1]], mesh.positions[c[2]]};
         for_each_block(corners, mesh.displacement, units, range,
-                       Visit{*this, triangle, mesh.material});
+                       Visit{*this, number_of(mesh.kind), triangle, mesh.material});
     }
 
 private:
     struct Visit {
         const WalkTriangleOp& op;
-        std::size_t triangle;
+        std::size_t kind, triangle;
         std::uint32_t material;
         HEDDLE_HD void operator()(int x, int y, int z) const {
-            op.to.add(PrimitiveKind::Triangle, triangle, op.range.number({x, y, z}), material);
+            op.to.add(kind, triangle, op.range.number({x, y, z}), material);
         }
     };
 };

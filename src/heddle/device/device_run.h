@@ -158,10 +158,8 @@ template <typename Exec>
 std::vector<BatchRange> DeviceRun<Exec>::plan_work() const {
     const auto streams = static_cast<std::int64_t>(device_.streams);
     const auto slots = static_cast<std::int64_t>(context_.range.count() * sizeof(std::uint32_t));
-    const BatchNeeds needs{.materials =
-                               static_cast<std::int64_t>(context_.geometry.materials.size()),
-                           .with_maps = scene_.with_maps,
-                           .with_levels = levels_ != nullptr};
+    const BatchNeeds needs{static_cast<std::int64_t>(context_.geometry.materials.size()),
+                           batch_settings(context_.fit, levels_)};
     const std::int64_t room = budget_.limit() - budget_.used() - streams * slots;
     return plan_batches(*order_, counts_, needs, room / streams,
                         std::max(device_.batches, streams));

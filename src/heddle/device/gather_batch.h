@@ -125,6 +125,18 @@ void gather_yarns(Exec& exec, const FiberBatch& batch, const gpu::Array<BlockPai
                   GatherHairOp{batch, yarns.data(), first_hair.data(), n});
 }
 
+/// Gathers a batch's triangles of one kind.
+template <SurfaceKind Kind, typename Exec>
+void gather_triangles(Exec& exec,
+                      const DeviceScene& scene,
+                      const DenseSums& sums,
+                      const BatchPairs& pairs) {
+    const gpu::Array<BlockPair>& of_kind = pairs.of[number_of(Kind)];
+    exec.set_stage("gather of triangles");
+    exec.for_each(of_kind.size(),
+                  GatherTriangleOp<Kind>{scene.surfaces, scene.fibers.units, sums, of_kind.data()});
+}
+
 /// Level 0 of a batch of blocks: from primitives to lobes.
 /// @throws Error  OutOfMemory, Device
 template <typename Exec>
@@ -150,12 +162,11 @@ template <typename Exec>
         scene.with_maps ? planes * kBlockCells * DenseLobe::kMapWords : 0);
     const DenseSums sums{blocks.data(), masks.data(), lobes.data(), maps.data()};
     const FiberBatch fibers{scene.fibers, scene.tables, sums};
-    gather_plain(exec, fibers, pairs.of[static_cast<std::size_t>(PrimitiveKind::Plain)]);
-    gather_yarns(exec, fibers, pairs.of[static_cast<std::size_t>(PrimitiveKind::Yarn)]);
-    const auto& triangles = pairs.of[static_cast<std::size_t>(PrimitiveKind::Triangle)];
-    exec.set_stage("gather of triangles");
-    exec.for_each(triangles.size(),
-                  GatherTriangleOp{scene.surfaces, scene.fibers.units, sums, triangles.data()});
+    gather_plain(exec, fibers, pairs.of[number_of(PrimitiveKind::Plain)]);
+    gather_yarns(exec, fibers, pairs.of[number_of(PrimitiveKind::Yarn)]);
+    gather_triangles<SurfaceKind::Constant>(exec, scene, sums, pairs);
+    gather_triangles<SurfaceKind::Shaded>(exec, scene, sums, pairs);
+    gather_triangles<SurfaceKind::Displaced>(exec, scene, sums, pairs);
     return fit_sums(exec, sums, n, merging, scene.fit);
 }
 

@@ -8,7 +8,8 @@
 
 namespace heddle {
 
-/// Gathers one triangle in one block.
+/// Gathers one triangle in one block: an op a kind, for the device's registers.
+template <SurfaceKind Kind>
 struct GatherTriangleOp {
     SurfaceView surfaces;
     LatticeUnits units;
@@ -19,7 +20,7 @@ struct GatherTriangleOp {
         const BatchBlock& block = sums.blocks[pairs[i].slot];
         const TrianglePlace at = surfaces.place(pairs[i].primitive);
         const DenseLobe to = sums.lobe(pairs[i].slot, surfaces.meshes[at.mesh].material);
-        add_triangle(surfaces, at, units, block.lo, block.lo + block.size, to, NoScratch{});
+        add_triangle<Kind>(surfaces, at, units, block.lo, block.lo + block.size, to, NoScratch{});
     }
 };
 
