@@ -1,5 +1,6 @@
 #include "copy_bandwidth.h"
 
+#include <heddle/base/platform.h>
 #include <heddle/gpu/cuda_executor.cuh>
 #include <heddle/gpu/device.h>
 
