@@ -180,6 +180,19 @@ works info one.vdb --json
 hash=$(json content_hash)
 works info three.vdb --json
 [ "$(json content_hash)" = "$hash" ] || wrong "one thread and three give different voxels"
+# where voxels are made: machines that run this have no GPU, or give the same voxels by it
+works voxelize knit.bcc --voxels 40 --device auto -o auto.vdb
+works voxelize knit.bcc --voxels 40 --device cpu -o cpu.vdb
+works info auto.vdb --json
+auto_hash=$(json content_hash)
+works info cpu.vdb --json
+[ "$auto_hash" = "$(json content_hash)" ] || wrong "--device auto and cpu differ"
+if ! "$heddle" voxelize knit.bcc --voxels 40 --device cuda -o cuda.vdb >out.txt 2>err.txt; then
+    cp cpu.vdb cuda.vdb
+    fails 4 "use --device cpu" voxelize knit.bcc --voxels 40 --device cuda -o cuda.vdb
+    cmp -s cpu.vdb cuda.vdb || wrong "a refused --device cuda touched the old output"
+fi
+fails 2 "--device-memory is of no use" voxelize knit.bcc -o a.vdb --device cpu --device-memory 1G
 works voxelize knit.bcc --dry-run --json -o dry.vdb
 [ "$(json predicted_peak_memory_bytes)" -gt 0 ] || wrong "a dry run predicts no memory"
 [ ! -e dry.vdb ] || wrong "a dry run wrote its output"

@@ -143,4 +143,31 @@ Geometry cloth(const std::string& shape, double nodes, int fibers) {
     return with_yarn(generate(o), procedural(fibers, false));
 }
 
+Geometry body(int triangles) {
+    const auto n = static_cast<std::uint32_t>(std::sqrt(triangles / 2));
+    Geometry g;
+    g.name = "body";
+    g.materials.resize(1);
+    g.materials[0].kind = MaterialKind::Surface;
+    Mesh mesh;
+    for (std::uint32_t i = 0; i <= n; ++i) {
+        for (std::uint32_t j = 0; j < n; ++j) {
+            const double a = 3.14159265358979 * i / n;
+            const double b = 6.28318530717959 * j / n;
+            const double r = 1.0 + 0.1 * std::sin(8.0 * a) * std::cos(9.0 * b);
+            mesh.positions.push_back(to_float(Vec3d{
+                r * std::sin(a) * std::cos(b), r * std::sin(a) * std::sin(b), r * std::cos(a)}));
+        }
+    }
+    for (std::uint32_t i = 0; i < n; ++i) {
+        for (std::uint32_t j = 0; j < n; ++j) {
+            const std::uint32_t next = (j + 1) % n;
+            mesh.triangles.push_back({i * n + j, (i + 1) * n + j, (i + 1) * n + next});
+            mesh.triangles.push_back({i * n + j, (i + 1) * n + next, i * n + next});
+        }
+    }
+    g.meshes.push_back(std::move(mesh));
+    return g;
+}
+
 } // namespace heddle::check

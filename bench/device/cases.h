@@ -30,4 +30,7 @@ struct Case {
 /// @param fibers   of a yarn
 [[nodiscard]] Geometry cloth(const std::string& shape, double nodes, int fibers);
 
+/// A round body with waves, of about so many triangles, without maps.
+[[nodiscard]] Geometry body(int triangles);
+
 } // namespace heddle::check

@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <exception>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace heddle::check {
@@ -44,9 +45,17 @@ double seconds_of(const auto& body) {
 /// One voxelization's time and what it made.
 struct Run {
     double seconds = 0.0;
-    std::int64_t voxels = 0;
-    double gigabytes = 0.0; ///< of all that is stored
+    VoxelLevels levels;
     DeviceReport report;
+
+    /// Seconds of launches in stages whose names begin so.
+    [[nodiscard]] double launches(const std::string& begin = "") const {
+        double sum = 0.0;
+        for (const auto& [stage, spent] : report.stages) {
+            if (stage.starts_with(begin)) sum += spent;
+        }
+        return sum;
+    }
 };
 
 Run run_device(const Geometry& g,
@@ -56,25 +65,17 @@ Run run_device(const Geometry& g,
     Run out;
     const VoxelizePlan plan = plan_range(g, options);
     const bool cuda = !gpu::find_device().name.empty();
-    VoxelLevels made;
     out.seconds = seconds_of([&] {
         LevelBuilder builder({});
         Progress silent;
         auto level0 = (cuda ? voxelize_on_cuda : voxelize_on_host_executor)(
             g, options, plan, device, silent, levels ? &builder : nullptr, &out.report);
         if (levels) {
-            made = builder.finish(std::move(level0));
+            out.levels = builder.finish(std::move(level0));
         } else {
-            made.push_back(std::move(level0));
+            out.levels.push_back(std::move(level0));
         }
     });
-    out.voxels = made[0]->info().voxel_count;
-    for (const auto& level : made) {
-        VoxelBlock scratch;
-        for (std::size_t b = 0; b < level->block_count(); ++b) {
-            out.gigabytes += 1e-9 * static_cast<double>(level->block(b, scratch).byte_count());
-        }
-    }
     return out;
 }
 
@@ -86,7 +87,51 @@ double cpu_seconds(const Geometry& g, const VoxelizeOptions& options) {
     });
 }
 
-void print_row(const Row& row, bool with_cpu) {
+/// Nodes read from a file as they lie.
+double read_seconds(const Geometry& g) {
+    std::FILE* file = std::tmpfile();
+    if (file == nullptr) return 0.0;
+    for (const CurveSet& set : g.curves) {
+        std::fwrite(set.points.data(), sizeof(Vec3f), set.points.size(), file);
+    }
+    std::rewind(file);
+    const double seconds = seconds_of([&] {
+        for (const CurveSet& set : g.curves) {
+            std::vector<Vec3f> points(set.points.size());
+            if (std::fread(points.data(), sizeof(Vec3f), points.size(), file) != points.size()) {
+                std::fprintf(stderr, "speed: a temporary file was read short\n");
+            }
+        }
+    });
+    std::fclose(file);
+    return seconds;
+}
+
+/// The arrays of all blocks written to a file as they lie.
+double write_seconds(const VoxelLevels& levels, double& gigabytes) {
+    std::FILE* file = std::tmpfile();
+    if (file == nullptr) return 0.0;
+    gigabytes = 0.0;
+    const double seconds = seconds_of([&] {
+        const auto write = [&](const auto& values) {
+            gigabytes += 1e-9 * static_cast<double>(values.size() * sizeof(values[0]));
+            std::fwrite(values.data(), sizeof(values[0]), values.size(), file);
+        };
+        for (const auto& level : levels) {
+            VoxelBlock scratch;
+            for (std::size_t b = 0; b < level->block_count(); ++b) {
+                const VoxelBlock& block = level->block(b, scratch);
+                write(block.leaves);
+                VoxelBlock::for_each_array(block, write);
+            }
+        }
+        std::fflush(file);
+    });
+    std::fclose(file);
+    return seconds;
+}
+
+void print_row(const Row& row, bool with_cpu, double bandwidth) {
     const Geometry g = cloth(row.shape, row.nodes, kFibers);
     VoxelizeOptions options;
     options.voxels = row.voxels;
@@ -95,11 +140,19 @@ void print_row(const Row& row, bool with_cpu) {
     const Run first = run_device(g, options, {}, false); // the pool of memory fills
     const Run level0 = run_device(g, options, {}, false);
     const Run levels = run_device(g, options, {}, true);
-    const Run timed = run_device(g, options, {.time_stages = true}, true);
-    std::printf("| %s, %.3g M nodes, %d | %.1f M | %.3f (first %.3f) | %.1f x | %.3f | %.1f x | ",
+    const double read = read_seconds(g);
+    double gigabytes = 0.0;
+    const double write = write_seconds(levels.levels, gigabytes);
+    DeviceOptions timing;
+    timing.time_stages = true;
+    const Run timed = run_device(g, options, timing, true);
+    const double whole = read + levels.seconds + write;
+    std::printf("| %s, %.4g M nodes, %d | %.1f M | %.3f (first %.3f) | %.1f | %.3f | %.1f | %.3f, "
+                "%.3f | %.1f | ",
                 row.shape, 1e-6 * static_cast<double>(points) * kFibers, row.voxels,
-                1e-6 * static_cast<double>(level0.voxels), level0.seconds, first.seconds,
-                row.paper / level0.seconds, levels.seconds, row.paper_levels / levels.seconds);
+                1e-6 * static_cast<double>(level0.levels[0]->info().voxel_count), level0.seconds,
+                first.seconds, row.paper / level0.seconds, levels.seconds,
+                row.paper_levels / levels.seconds, read, write, row.paper_levels / whole);
     if (with_cpu) {
         std::printf("%.2f |", cpu_seconds(g, options));
     } else {
@@ -108,25 +161,57 @@ void print_row(const Row& row, bool with_cpu) {
     for (const auto& [stage, seconds] : timed.report.stages) {
         std::printf(" %s %.1f ms,", stage.c_str(), 1e3 * seconds);
     }
-    std::printf(" %lld batches, %.2f GB device memory |\n",
+    const double bytes = gigabytes * 1e9 + static_cast<double>(points) * sizeof(Vec3f);
+    std::printf(" compulsory bytes %.1f ms; %lld batches, %.2f GB |\n",
+                bandwidth > 0.0 ? 1e-6 * bytes / bandwidth : 0.0,
                 static_cast<long long>(levels.report.batches),
                 1e-9 * static_cast<double>(levels.report.peak_bytes));
     std::fflush(stdout);
 }
 
+/// Launches alone, beside cuda_voxelizer's published times for a bunny of as many triangles on a GTX
+/// 1050 Ti (112 GB/s), scaled by bandwidth.
+void print_mesh(int voxels, double published_ms, double bandwidth) {
+    const Geometry g = body(70000);
+    VoxelizeOptions options;
+    options.voxels = voxels;
+    options.subvoxels = 1;
+    DeviceOptions timing;
+    timing.time_stages = true;
+    static_cast<void>(run_device(g, options, timing, false));
+    const Run run = run_device(g, options, timing, false);
+    std::printf("| %zu triangles, %d voxels | %.1f M | %.2f | %.2f | %.2f |\n",
+                g.meshes[0].triangles.size(), voxels,
+                1e-6 * static_cast<double>(run.levels[0]->info().voxel_count),
+                1e3 * (run.launches("bin") + run.launches("gather")), 1e3 * run.launches(),
+                bandwidth > 0.0 ? published_ms * 112.0 / bandwidth : 0.0);
+    std::fflush(stdout);
+}
+
 int main_of(int rows) {
     const gpu::Device device = gpu::find_device();
+    const double bandwidth = copy_bandwidth();
     std::printf("device: %s\nthreads of the host: %d\n",
                 device.name.empty() ? device.why.c_str() : device.name.c_str(), thread_count());
-    std::printf("copy bandwidth of the device: %.0f GB/s\n\n", copy_bandwidth());
-    std::printf("| cloth, nodes of fibers, voxels along the longest axis | voxels | level 0, s | "
-                "the paper's time / this | with levels, s | the paper's / this | all cores of the "
-                "CPU, level 0, s | launches |\n|---|---|---|---|---|---|---|---|\n");
+    std::printf("copy bandwidth of the device: %.0f GB/s\n\n", bandwidth);
+    std::printf(
+        "| cloth, nodes of fibers, voxels along the longest axis | voxels | level 0, s | "
+        "paper / this | with levels, s | paper / this | read, write, s | paper / the whole | "
+        "all cores of the CPU, level 0, s | launches |\n"
+        "|---|---|---|---|---|---|---|---|---|---|\n");
     if (device.name.empty()) {
-        print_row({"flat", 1e5, 128, 0.0, 0.0}, true);
-        return 0;
+        print_row({"flat", 1e5, 128, 0.0, 0.0}, true, 0.0);
+    } else {
+        for (int r = 0; r < rows; ++r) print_row(kRows[r], r % 3 == 0 && r < 6, bandwidth);
     }
-    for (int r = 0; r < rows; ++r) print_row(kRows[r], r % 3 == 0 && r < 6);
+    std::printf("\n| mesh, 1 subvoxel | voxels | bin and gather, ms | all launches, ms | "
+                "cuda_voxelizer, published, scaled, ms |\n|---|---|---|---|---|\n");
+    if (device.name.empty()) {
+        print_mesh(128, 0.0, 0.0);
+    } else {
+        print_mesh(1024, 8.6, bandwidth);
+        print_mesh(2048, 44.6, bandwidth);
+    }
     return 0;
 }
 
