@@ -45,7 +45,7 @@ for name in $("$heddle" help-tables | sed -n 's/^\*\*heddle \(.*\)\*\*$/\1/p'); 
     grep -qw -- "$name" out.txt || wrong "heddle alone does not name $name"
 done
 works --version
-for command in info generate voxelize lod lod-report material preview render export; do
+for command in info generate slice voxelize lod lod-report material preview render export; do
     works "$command" --help
     grep -q -- '--threads N' out.txt || wrong "no --threads in the help of $command"
 done

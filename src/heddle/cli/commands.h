@@ -8,6 +8,7 @@ namespace heddle::cli {
 
 [[nodiscard]] Command info_command();
 [[nodiscard]] Command generate_command();
+[[nodiscard]] Command slice_command();
 [[nodiscard]] Command voxelize_command();
 [[nodiscard]] Command lod_command();
 [[nodiscard]] Command lod_report_command();
@@ -19,9 +20,9 @@ namespace heddle::cli {
 /// All subcommands, in the order of a first use.
 [[nodiscard]] inline const std::vector<Command>& commands() {
     static const std::vector<Command> all{
-        info_command(),    generate_command(),   voxelize_command(),
-        lod_command(),     lod_report_command(), material_command(),
-        preview_command(), render_command(),     export_command()};
+        info_command(),   generate_command(),   slice_command(),    voxelize_command(),
+        lod_command(),    lod_report_command(), material_command(), preview_command(),
+        render_command(), export_command()};
     return all;
 }
 

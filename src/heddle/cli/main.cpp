@@ -79,7 +79,9 @@ std::string quote_line(const std::vector<std::string>& words) {
 std::string overview() {
     return "heddle " HEDDLE_VERSION ": yarn, hair and meshes to sparse anisotropic volumes\n"
            "usage: heddle COMMAND ... [--help]\n"
-           "make:   generate (knit, weave, hair, grass, brushed plate), voxelize (a .vdb of them)\n"
+           "make:   generate (knit, weave, hair, grass, brushed plate), slice (a yarn's section), "
+           "voxelize "
+           "(a .vdb)\n"
            "look:   info (what a file holds), preview, render (pictures), lod-report (errors of "
            "levels)\n"
            "change: lod (the levels of a .vdb), material (its materials), export (to Mitsuba 3)\n"

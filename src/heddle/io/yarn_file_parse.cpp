@@ -156,6 +156,11 @@ void read_text_key(const toml::node& node,
         problems.add(line_of(node), "a slice yarn cannot be used here, no image can be loaded");
     } else {
         yarn.slice = load((std::filesystem::path(path).parent_path() / *text).string());
+        if (yarn.slice.channels != 4) {
+            problems.add(line_of(node), str("the image '", *text, "' has ", yarn.slice.channels,
+                                            " channels, a slice needs RGB and alpha"));
+            yarn.slice = {};
+        }
         yarn.slice.name = *text; // as the file has it, so that it can be written again
     }
 }

@@ -249,6 +249,23 @@ TEST(YarnFile, SliceImageIsLoadedRelativeToTheFile) {
     EXPECT_HAS(toml_error("model = \"slice\"\n"), "'slice' is missing");
 }
 
+TEST(YarnFile, ASliceImageWithoutAlphaIsAProblemOfItsLine) {
+    const LoadTexture load = [](const std::string&) {
+        Texture t;
+        t.width = 1;
+        t.height = 1;
+        t.channels = 3;
+        t.texels = {255, 255, 255};
+        return t;
+    };
+    try {
+        (void)parse_yarn_toml("model = \"slice\"\nslice = \"a.png\"\n", "y.toml", load);
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_HAS(std::string(e.what()), "y.toml:2: the image 'a.png' has 3 channels");
+    }
+}
+
 TEST(YarnFile, FiberCountIsSplitOverPliesAndKeepsTheFill) {
     YarnType y = read_yarn("cotton").yarn;
     const auto area = [](const YarnType& t) {
