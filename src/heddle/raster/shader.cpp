@@ -95,6 +95,26 @@ void Program::use() const {
     glUseProgram(id_);
 }
 
+void Program::set(const char* name, std::int32_t value) const {
+    glProgramUniform1i(id_, glGetUniformLocation(id_, name), value);
+}
+
+void Program::set(const char* name, std::uint32_t value) const {
+    glProgramUniform1ui(id_, glGetUniformLocation(id_, name), value);
+}
+
+void Program::set(const char* name, float value) const {
+    glProgramUniform1f(id_, glGetUniformLocation(id_, name), value);
+}
+
+void Program::set(const char* name, Vec3f value) const {
+    glProgramUniform3f(id_, glGetUniformLocation(id_, name), value.x, value.y, value.z);
+}
+
+void Program::set(const char* name, Vec3i value) const {
+    glProgramUniform3i(id_, glGetUniformLocation(id_, name), value.x, value.y, value.z);
+}
+
 void Program::dispatch(std::uint64_t items) const {
     if (items == 0) return;
     use();

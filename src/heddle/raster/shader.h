@@ -1,5 +1,7 @@
 #pragma once
 
+#include <heddle/base/vec.h>
+
 #include <cstdint>
 #include <string_view>
 
@@ -28,6 +30,12 @@ public:
     Program& operator=(const Program&) = delete;
 
     void use() const;
+    /// Sets a uniform by its name; one that the program does not use is ignored.
+    void set(const char* name, std::int32_t value) const;
+    void set(const char* name, std::uint32_t value) const;
+    void set(const char* name, float value) const;
+    void set(const char* name, Vec3f value) const;
+    void set(const char* name, Vec3i value) const;
     /// Runs one invocation for each of `items`: as many groups along x as every driver takes, the
     /// rest along y. Waits for nothing.
     void dispatch(std::uint64_t items) const;

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <string_view>
+
+namespace heddle::raster {
+
+/// GLSL, fragment: `accumulate`: every column's centre ray through the fibers themselves.
+inline constexpr std::string_view kAccumulateGlsl = R"(
+// Columns of axis 0 have bit z n + y, of 1 z n + x, of 2 y n + x.
+uint column_bit(ivec3 sub) {
+    return uint(axis == 0 ? sub.z * subvoxels + sub.y
+              : axis == 1 ? sub.z * subvoxels + sub.x
+                          : sub.y * subvoxels + sub.x);
+}
+
+// Subvoxels of the column along z whose centres lie in [from, to), subvoxels from the voxel's corner.
+void mark_subvoxels(uint words, ivec3 sub, float from, float to) {
+    int first = max(int(ceil(from - 0.5)), 0);
+    int last = min(int(ceil(to - 0.5)) - 1, subvoxels - 1);
+    if (last < first) return;
+    int bit = (sub.x * subvoxels + sub.y) * subvoxels + first;
+    uint run = (1u << uint(last - first + 1)) - 1u;
+    atomicOr(pool[words + 6u + uint(bit >> 5)], run << uint(bit & 31));
+}
+
+// The column lies inside a fiber over [from, to).
+void add_run(ivec2 pixel, float from, float to) {
+    Local l = local_at(0.5 * (from + to));
+    vec3 direction = direction_of(l);
+    vec3 color = color_of(l);
+    float deep = edge[axis] * float(subvoxels);
+    int first = int(floor(from / deep));
+    int last = int(ceil(to / deep)) - 1;
+    ivec3 at = axis == 0 ? ivec3(0, pixel) : axis == 1 ? ivec3(pixel.x, 0, pixel.y) : ivec3(pixel, 0);
+    int shift = subvoxels == 8 ? 3 : subvoxels == 4 ? 2 : subvoxels == 2 ? 1 : 0;
+    ivec3 sub = at & (subvoxels - 1);
+    ivec3 voxel = at >> shift;
+    uint bit = column_bit(sub);
+    for (int v = first; v <= last; ++v) {
+        voxel[axis] = v;
+        uint words = words_of(voxel);
+        if (words == kNoVoxel) continue;
+        float lo = max(from, float(v) * deep);
+        float hi = min(to, float(v + 1) * deep);
+        if (!(lo < hi)) continue;
+        atomicOr(pool[words + 2u * uint(axis) + (bit >> 5)], 1u << (bit & 31u));
+        if (axis == 2) {
+            float corner = float(v) * deep;
+            mark_subvoxels(words, sub, (lo - corner) / edge.z, (hi - corner) / edge.z);
+        }
+        add_direction(words, direction, weight_of(hi - lo, l.scale), color);
+    }
+}
+
+struct March { float t, d, last_d, last_t; }; // d: units from the surface, < 0 inside
+
+float signed_depth(float t) {
+    Local l = local_at(t);
+    return distance_at(l.at) * l.scale;
+}
+
+// Goes on until the sign of d is no longer `side`; t is then where it changes, or `end`.
+void advance(inout March m, float side, float end, float speed, float least) {
+    for (int i = 0; i < 1024; ++i) {
+        m.last_d = m.d;
+        m.last_t = m.t;
+        m.t += max(abs(m.d) / speed, least);
+        if (m.t >= end) {
+            m.t = end;
+            return;
+        }
+        m.d = signed_depth(m.t);
+        if (m.d * side <= 0.0) {
+            m.t = mix(m.last_t, m.t, m.last_d / (m.last_d - m.d));
+            m.d = -side * 1e-6;
+            return;
+        }
+    }
+}
+
+void main() {
+    ivec2 pixel = pixel_of(gl_FragCoord.xy);
+    start(pixel);
+    vec2 range = range_of_slab();
+    if (!(range.x < range.y)) return;
+    // how fast the ray moves over the section, at most
+    float lean = along[axis];
+    float speed = sqrt(max(1.0 - lean * lean, 0.0)) +
+                  abs(tangent_a.w) / max(chord, 1e-6) * sizes.z * abs(lean) + bend + 0.02;
+    float least = clamp(0.25 * sizes.y * place_a.w, 0.02, 0.5);
+    March m = March(range.x, 0.0, 0.0, range.x);
+    m.d = signed_depth(m.t);
+    // a run an iteration: where many rays go side by side, they wait for each other at its end alone
+    for (int run = 0; run < 1024 && m.t < range.y; ++run) {
+        if (m.d > 0.0) advance(m, 1.0, range.y, speed, least);
+        if (m.t >= range.y) break;
+        float from = m.t;
+        advance(m, -1.0, range.y, speed, least);
+        add_run(pixel, from, m.t);
+    }
+}
+)";
+
+} // namespace heddle::raster

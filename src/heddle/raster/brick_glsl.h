@@ -1,0 +1,97 @@
+#pragma once
+
+#include <string_view>
+
+namespace heddle::raster {
+
+/// GLSL: the lattice, and which bricks of 8 x 8 x 8 voxels the stretch between two slices may touch.
+/// Voxels and bricks are counted from the origin. Bindings 0 and 1.
+inline constexpr std::string_view kBrickGlsl = R"(
+layout(std430, binding = 0) readonly buffer Slices { Slice slices[]; };
+uniform ivec3 voxel_lo;    // [lo, hi)
+uniform ivec3 voxel_hi;
+uniform ivec3 brick_lo;
+uniform ivec3 brick_count;
+uniform vec3 edge;         // of a subvoxel, units
+uniform int subvoxels;     // per voxel axis
+
+uint brick_number(ivec3 brick) {
+    ivec3 b = brick - brick_lo;
+    return (uint(b.x) * uint(brick_count.y) + uint(b.y)) * uint(brick_count.z) + uint(b.z);
+}
+
+// Half the length of the stretch from slice a to b, with what its sections reach past it in a bend.
+float half_length(Slice a, Slice b, float reach) {
+    return 0.5 * length(b.center - a.center) + reach * length(b.tangent - a.tangent);
+}
+
+float reach_of(Slice a, Slice b) { return a.extent * max(a.scale, b.scale); }
+
+struct BrickBox { ivec3 lo, hi; vec3 middle; float radius; }; // bricks [lo, hi]
+
+BrickBox bricks_of(Slice a, Slice b) {
+    float reach = reach_of(a, b);
+    float far = length(vec2(reach, half_length(a, b, reach))) + 0.5;
+    vec3 middle = 0.5 * (a.center + b.center);
+    vec3 size = edge * float(8 * subvoxels);
+    ivec3 last = brick_lo + brick_count - 1;
+    ivec3 lo = clamp(ivec3(floor((middle - far) / size)), brick_lo, last + 1);
+    ivec3 hi = clamp(ivec3(floor((middle + far) / size)), brick_lo - 1, last);
+    return BrickBox(lo, hi, middle, far);
+}
+
+bool touches(BrickBox box, ivec3 brick) {
+    vec3 size = edge * float(8 * subvoxels);
+    vec3 corner = vec3(brick) * size;
+    vec3 gap = max(max(corner - box.middle, box.middle - (corner + size)), vec3(0.0));
+    return dot(gap, gap) <= box.radius * box.radius;
+}
+)";
+
+/// GLSL: one slice an item; sets the bit of each brick that the stretch after it may touch.
+inline constexpr std::string_view kMarkGlsl = R"(
+layout(std430, binding = 1) buffer Marks { uint marks[]; };
+uniform uint slice_count;
+
+void main() {
+    if (item() + 1u >= slice_count || (slices[item()].flags & kLastOfYarn) != 0u) return;
+    BrickBox box = bricks_of(slices[item()], slices[item() + 1u]);
+    for (int x = box.lo.x; x <= box.hi.x; ++x) {
+        for (int y = box.lo.y; y <= box.hi.y; ++y) {
+            for (int z = box.lo.z; z <= box.hi.z; ++z) {
+                if (!touches(box, ivec3(x, y, z))) continue;
+                uint number = brick_number(ivec3(x, y, z));
+                atomicOr(marks[number >> 5], 1u << (number & 31u));
+            }
+        }
+    }
+}
+)";
+
+/// GLSL: one slice an item; lists those whose stretch may touch a brick of the batch, for an
+/// indirect draw of four corners each.
+inline constexpr std::string_view kListGlsl = R"(
+layout(std430, binding = 1) readonly buffer Slots { uint slot_of[]; };
+layout(std430, binding = 2) writeonly buffer List { uint list[]; };
+layout(std430, binding = 3) buffer Draw { uint corners; uint listed; uint first; uint base; };
+uniform uint slice_count;
+
+bool wanted(BrickBox box) {
+    for (int x = box.lo.x; x <= box.hi.x; ++x) {
+        for (int y = box.lo.y; y <= box.hi.y; ++y) {
+            for (int z = box.lo.z; z <= box.hi.z; ++z) {
+                ivec3 brick = ivec3(x, y, z);
+                if (touches(box, brick) && slot_of[brick_number(brick)] != 0u) return true;
+            }
+        }
+    }
+    return false;
+}
+
+void main() {
+    if (item() + 1u >= slice_count || (slices[item()].flags & kLastOfYarn) != 0u) return;
+    if (wanted(bricks_of(slices[item()], slices[item() + 1u]))) list[atomicAdd(listed, 1u)] = item();
+}
+)";
+
+} // namespace heddle::raster

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <heddle/base/vec.h>
+#include <heddle/raster/buffer.h>
+#include <heddle/raster/shader.h>
+#include <heddle/raster/slices.h>
+#include <heddle/voxel/lattice_units.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace heddle::raster {
+
+/// Voxels along a brick's edge: a brick is what is found occupied, and a stored leaf.
+constexpr int kBrickEdge = 8;
+
+/// The bricks of a voxel range, counted from the origin of the slices.
+struct BrickGrid {
+    Vec3i origin;             ///< voxel index
+    Vec3i voxel_lo, voxel_hi; ///< [lo, hi), from the origin
+    Vec3i lo, count;          ///< first brick, bricks per axis
+    LatticeUnits units;
+
+    /// @throws Error  Unsupported: too many bricks for one table, or too many subvoxels for pixels
+    BrickGrid(const LatticeUnits& units, Vec3i origin, Vec3i voxel_lo, Vec3i voxel_hi);
+
+    [[nodiscard]] std::uint64_t size() const;
+    [[nodiscard]] Vec3i brick(std::uint64_t number) const; ///< index, from the origin
+    [[nodiscard]] std::uint64_t number(Vec3i brick) const;
+    /// Sets what kBrickGlsl reads.
+    void set_uniforms(const Program& program) const;
+};
+
+/// A block and its touched bricks.
+struct TouchedBlock {
+    Vec3i index;                       ///< of the lattice, as BlockVisitor has it
+    std::vector<std::uint32_t> bricks; ///< numbers in the grid, ascending
+};
+
+/// The blocks that slices may touch, in Z-order, found by the driver.
+[[nodiscard]] std::vector<TouchedBlock>
+find_blocks(const Context& context, const BrickGrid& grid, std::span<const SliceChunk> chunks);
+
+} // namespace heddle::raster

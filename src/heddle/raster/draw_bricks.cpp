@@ -1,0 +1,182 @@
+#include <heddle/raster/draw_bricks.h>
+
+#include <heddle/base/error.h>
+#include <heddle/raster/accumulate_glsl.h>
+#include <heddle/raster/brick_glsl.h>
+#include <heddle/raster/compose_glsl.h>
+#include <heddle/raster/slab_glsl.h>
+#include <heddle/raster/slice_glsl.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace heddle::raster {
+namespace {
+
+constexpr std::size_t kBrickBytes = kBrickWords * sizeof(std::uint32_t);
+constexpr std::size_t kBlockBricks = 64; ///< most that one block has
+
+std::vector<std::uint32_t> materials_of(std::span<const SliceChunk> chunks) {
+    std::vector<std::uint32_t> out;
+    for (const SliceChunk& c : chunks) out.push_back(c.material);
+    std::sort(out.begin(), out.end());
+    out.erase(std::unique(out.begin(), out.end()), out.end());
+    return out;
+}
+
+std::size_t capacity_of(const Context& context, std::int64_t bytes, std::size_t materials) {
+    const std::int64_t most = std::min<std::int64_t>(context.limits().storage_bytes, bytes) /
+                              static_cast<std::int64_t>(std::max<std::size_t>(materials, 1));
+    return std::max(static_cast<std::size_t>(most) / kBrickBytes, kBlockBricks);
+}
+
+std::uint32_t most_slices(std::span<const SliceChunk> chunks) {
+    std::uint32_t most = 0;
+    for (const SliceChunk& c : chunks) most = std::max(most, c.count);
+    return most;
+}
+
+Program make_draw(Composition composition) {
+    const std::string shared = std::string(kSliceGlsl) + std::string(kBrickGlsl);
+    const std::string_view body =
+        composition == Composition::Accumulate ? kAccumulateGlsl : kComposeGlsl;
+    return Program::draw("draw slices", shared, kQuadGlsl,
+                         std::string(kSlabGlsl) + std::string(body));
+}
+
+void check_last(std::span<const SliceChunk> chunks, Composition composition) {
+    std::uint64_t total = 0;
+    for (const SliceChunk& c : chunks) total += c.count;
+    if (composition != Composition::Last || total <= (std::uint64_t{1} << 23)) return;
+    throw Error(ErrorCode::Unsupported,
+                str("raster: ", total, " slices are too many to tell which was last (limit 2^23)"),
+                "use another composition, or larger voxels");
+}
+
+} // namespace
+
+BrickDrawer::BrickDrawer(const Context& context,
+                         const BrickGrid& grid,
+                         const SectionLayers& sections,
+                         std::span<const SliceChunk> chunks,
+                         const DrawOptions& options)
+    : context_(context),
+      grid_(grid),
+      chunks_(chunks),
+      options_(options),
+      capacity_(capacity_of(context, options.memory_bytes, materials_of(chunks).size())),
+      materials_(materials_of(chunks)),
+      textures_(sections),
+      list_program_(Program::compute(
+          "list slices", std::string(kSliceGlsl) + std::string(kBrickGlsl), kListGlsl)),
+      draw_program_(make_draw(options.composition)),
+      slots_(grid.size()),
+      slot_buffer_("slots of bricks", grid.size() * sizeof(std::uint32_t)),
+      pool_("sums of bricks", capacity_ * kBrickBytes),
+      list_("a batch's slices", most_slices(chunks) * sizeof(std::uint32_t)),
+      command_("a batch's draw", 4 * sizeof(std::uint32_t)) {
+    check_last(chunks, options.composition);
+    grid.set_uniforms(list_program_);
+    grid.set_uniforms(draw_program_);
+    draw_program_.set("weight_scale", std::ldexp(1.0f, options.weight_bits));
+    draw_program_.set("policy", static_cast<std::int32_t>(options.composition));
+}
+
+BrickDrawer::View BrickDrawer::choose(std::span<const TouchedBlock> blocks,
+                                      DrawnBatch& batch) const {
+    const std::int32_t n = grid_.units.n;
+    Vec3i lo;
+    Vec3i hi;
+    for (std::size_t i = batch.begin; i < blocks.size(); ++i) {
+        if (batch.bricks + blocks[i].bricks.size() > capacity_) break;
+        Vec3i least = lo;
+        Vec3i most = hi;
+        for (const std::uint32_t number : blocks[i].bricks) {
+            const Vec3i brick = grid_.brick(number);
+            const bool first = i == batch.begin && number == blocks[i].bricks.front();
+            for (int a = 0; a < 3; ++a) {
+                least[a] = first ? brick[a] : std::min(least[a], brick[a]);
+                most[a] = first ? brick[a] + 1 : std::max(most[a], brick[a] + 1);
+            }
+        }
+        const Vec3i size = most - least;
+        const std::int32_t view = std::max({size.x, size.y, size.z}) * kBrickEdge * n;
+        if (i > batch.begin && view > context_.limits().viewport) break;
+        lo = least;
+        hi = most;
+        batch.first_slot.push_back(batch.bricks);
+        batch.bricks += blocks[i].bricks.size();
+        batch.end = i + 1;
+    }
+    return {lo * (kBrickEdge * n), (hi - lo) * (kBrickEdge * n)};
+}
+
+void BrickDrawer::set_slots(std::span<const TouchedBlock> blocks, const DrawnBatch& batch) {
+    std::fill(slots_.begin(), slots_.end(), 0u);
+    std::uint32_t slot = 0;
+    for (std::size_t i = batch.begin; i < batch.end; ++i) {
+        for (const std::uint32_t number : blocks[i].bricks) slots_[number] = ++slot;
+    }
+    slot_buffer_.write(std::as_bytes(std::span(slots_)));
+}
+
+void BrickDrawer::list_slices(const SliceChunk& chunk) {
+    constexpr std::array<std::uint32_t, 4> kNone{4, 0, 0, 0}; // corners, quads, first, base
+    command_.write(std::as_bytes(std::span(kNone)));
+    list_.bind_storage(2);
+    command_.bind_storage(3);
+    list_program_.set("slice_count", chunk.count);
+    list_program_.dispatch(chunk.count);
+    finish_writes();
+}
+
+void BrickDrawer::draw_chunk(const SliceChunk& chunk, const View& view) {
+    chunk.slices.bind_storage(0);
+    slot_buffer_.bind_storage(1);
+    list_slices(chunk);
+    draw_program_.use();
+    draw_program_.set("view_lo", view.lo);
+    draw_program_.set("view_size", view.size);
+    draw_program_.set("first_slice", chunk.first);
+    pool_.bind_storage(3);
+    textures_.bind();
+    command_.bind_indirect();
+    for (std::int32_t axis = 0; axis < 3; ++axis) {
+        draw_program_.set("axis", axis);
+        frame_.bind(axis == 0 ? view.size.y : view.size.x, axis == 2 ? view.size.y : view.size.z);
+        EmptyFrame::draw_indirect();
+    }
+}
+
+void BrickDrawer::draw_material(std::uint32_t material, const View& view) {
+    for (const SliceChunk& chunk : chunks_) {
+        if (chunk.material == material) draw_chunk(chunk, view);
+    }
+}
+
+DrawnBatch BrickDrawer::draw(std::span<const TouchedBlock> blocks, std::size_t begin) {
+    DrawnBatch batch{.begin = begin, .end = begin, .first_slot = {}, .materials = {}};
+    const View view = choose(blocks, batch);
+    set_slots(blocks, batch);
+    for (const std::uint32_t material : materials_) {
+        pool_.clear();
+        const int picks = options_.composition == Composition::Last ? 2 : 1;
+        for (std::int32_t pick = 0; pick < picks; ++pick) {
+            draw_program_.set("pick", pick);
+            draw_material(material, view);
+            finish_writes();
+        }
+        DrawnMaterial drawn{.form = {.subvoxels = grid_.units.n,
+                                     .composition = options_.composition,
+                                     .weight_bits = options_.weight_bits,
+                                     .material = material},
+                            .words = std::vector<std::uint32_t>(batch.bricks * kBrickWords)};
+        pool_.read(std::as_writable_bytes(std::span(drawn.words)));
+        context_.check("draw slices");
+        batch.materials.push_back(std::move(drawn));
+    }
+    return batch;
+}
+
+} // namespace heddle::raster

@@ -1,0 +1,206 @@
+#include <heddle/raster/voxelize_slices.h>
+
+#include <heddle/base/error.h>
+#include <heddle/base/lender.h>
+#include <heddle/base/parallel.h>
+#include <heddle/geom/slice_image.h>
+#include <heddle/raster/brick_grid.h>
+#include <heddle/raster/brick_words.h>
+#include <heddle/raster/draw_bricks.h>
+#include <heddle/voxel/block_keeper.h>
+#include <heddle/voxel/block_worker.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+namespace heddle::raster {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// What levels alone are built from goes when they are.
+void drop_sums(VoxelBlock& block) {
+    block.columns = {};
+    block.moments = {};
+    block.map_sums = {};
+}
+
+/// The block that holds the least control point: the same for every region of an object.
+Vec3i origin_of(const Geometry& geometry, const LatticeUnits& units) {
+    Vec3d least{1e300, 1e300, 1e300};
+    for (const CurveSet& set : geometry.curves) {
+        for (const Vec3f& p : set.points) {
+            for (int a = 0; a < 3; ++a) least[a] = std::min(least[a], static_cast<double>(p[a]));
+        }
+    }
+    Vec3i out;
+    for (int a = 0; a < 3; ++a) {
+        const double block = units.voxel_size[a] * kBlockVoxels;
+        out[a] = static_cast<std::int32_t>(std::floor(least[a] / block)) * kBlockVoxels;
+    }
+    return out;
+}
+
+/// Bits of a weight so that three passes over a full voxel, eight times over, stay below 2^31.
+int weight_bits(const LatticeUnits& units, std::span<const SliceChunk> chunks, float thinnest) {
+    if (chunks.empty()) return 0;
+    const double volume = static_cast<double>(units.voxel.x) * static_cast<double>(units.voxel.y) *
+                          static_cast<double>(units.voxel.z);
+    const double most = 3.0 * 0.6366 * volume / static_cast<double>(thinnest);
+    return static_cast<int>(std::clamp(std::floor(28.0 - std::log2(most)), -20.0, 20.0));
+}
+
+/// Radius of the thinnest fiber, units.
+float thinnest_fiber(const Geometry& geometry,
+                     const SectionLayers& sections,
+                     const LatticeUnits& units) {
+    float least = 1e30f;
+    for (std::size_t s = 0; s < geometry.curves.size(); ++s) {
+        const CurveSet& set = geometry.curves[s];
+        const YarnType* yarn = geometry.yarn_of(set);
+        float radius = set.default_radius;
+        if (!set.radius.empty()) radius = *std::min_element(set.radius.begin(), set.radius.end());
+        if (yarn != nullptr && yarn->radius > 0.0f) radius = yarn->radius;
+        const float model = yarn == nullptr ? 1.0f : yarn->model_radius;
+        for (std::uint32_t l = sections.first[s]; l < sections.first[s + 1]; ++l) {
+            least = std::min(least, radius / model * sections.layers[l].fiber_radius);
+        }
+    }
+    return std::max(least / static_cast<float>(units.unit), 1e-6f);
+}
+
+void check_geometry(const Geometry& geometry) {
+    if (geometry.meshes.empty()) return;
+    throw Error(ErrorCode::Unsupported,
+                str("raster: '", geometry.name, "' has meshes; slices are of yarn and hair"),
+                "use --backend sample");
+}
+
+/// Sums to voxels, block by block.
+struct BlockFitter {
+    const VoxelizeContext& context;
+    const BrickGrid& grid;
+    std::span<const TouchedBlock> blocks;
+    BlockVisitor* visitor;
+    BlockKeeper& keeper;
+    bool keep_sums;
+    Lender<BlockSums> lender{};
+
+    void fit(const DrawnBatch& batch) {
+        parallel_chunks(batch.end - batch.begin, 1, [&](std::size_t i, std::size_t) {
+            const auto make = [&] {
+                return std::make_unique<BlockSums>(context.fit.fields.map_sums());
+            };
+            lender.with(make, [&](BlockSums& sums) { fit_one(batch, batch.begin + i, sums); });
+        });
+    }
+
+    void fit_one(const DrawnBatch& batch, std::size_t rank, BlockSums& sums) {
+        const TouchedBlock& block = blocks[rank];
+        Vec3i lo;
+        Vec3i hi;
+        for (int a = 0; a < 3; ++a) {
+            const std::int32_t corner = block.index[a] * kBlockVoxels;
+            lo[a] = std::max(corner, grid.voxel_lo[a] + grid.origin[a]);
+            hi[a] = std::min(corner + kBlockVoxels, grid.voxel_hi[a] + grid.origin[a]);
+        }
+        sums.reset(lo, hi);
+        for (const DrawnMaterial& drawn : batch.materials) {
+            for (std::size_t k = 0; k < block.bricks.size(); ++k) {
+                const std::size_t slot = batch.first_slot[rank - batch.begin] + k;
+                const Vec3i corner = grid.brick(block.bricks[k]) * kBrickEdge + grid.origin - lo;
+                add_brick(std::span(drawn.words).subspan(slot * kBrickWords, kBrickWords),
+                          drawn.form, corner, sums);
+            }
+        }
+        VoxelBlock out;
+        fit_block(sums, context.fit, out);
+        if (visitor != nullptr) visitor->visit(rank, out);
+        if (!keep_sums) drop_sums(out);
+        keeper.keep(rank, out);
+    }
+};
+
+std::vector<Vec3i> indices_of(std::span<const TouchedBlock> blocks) {
+    std::vector<Vec3i> out;
+    for (const TouchedBlock& b : blocks) out.push_back(b.index);
+    return out;
+}
+
+std::int64_t memory_of(const VoxelizeOptions& options) {
+    return options.memory_bytes > 0 ? options.memory_bytes / 4 : std::int64_t{512} << 20;
+}
+
+} // namespace
+
+std::vector<std::string> make_slices_of_yarns(Geometry& geometry, std::uint64_t seed) {
+    std::vector<std::string> notes;
+    for (YarnType& yarn : geometry.yarns) {
+        if (yarn.model != YarnModel::Procedural) continue;
+        SliceImage made = make_slice(yarn, {.size = 256, .seed = seed});
+        notes.insert(notes.end(), made.notes.begin(), made.notes.end());
+        yarn = std::move(made.yarn);
+    }
+    return notes;
+}
+
+std::unique_ptr<VoxelSource> voxelize_slices(const Geometry& geometry,
+                                             const VoxelizeOptions& options,
+                                             const RasterOptions& raster,
+                                             const VoxelizePlan& plan,
+                                             Progress& progress,
+                                             BlockVisitor* visitor,
+                                             RasterCounts* counts) {
+    check_geometry(geometry);
+    const auto start = Clock::now();
+    VoxelizeContext context(geometry, options, plan.lattice, plan.voxel_lo, plan.voxel_hi);
+    const BrickGrid grid(context.units, origin_of(geometry, context.units), plan.voxel_lo,
+                         plan.voxel_hi);
+    const SectionLayers sections = build_sections(geometry, options.seed);
+    const Context driver;
+    const std::vector<SliceChunk> chunks =
+        place_slices(driver, geometry, sections, context.units,
+                     {.origin = grid.origin, .spacing = raster.slice_spacing / context.units.unit});
+    const std::vector<TouchedBlock> blocks = find_blocks(driver, grid, chunks);
+    const int bits =
+        weight_bits(context.units, chunks, thinnest_fiber(geometry, sections, context.units));
+    BrickDrawer drawer(driver, grid, sections, chunks,
+                       {.composition = raster.composition,
+                        .weight_bits = bits,
+                        .memory_bytes = memory_of(options)});
+    BlockKeeper keeper(context.info(), blocks.size(), plan.spool, options.spool_dir);
+    if (visitor != nullptr) {
+        context.fit.fields.masks = true;
+        visitor->begin(context.info(), indices_of(blocks), plan.spool ? options.spool_dir : "");
+    }
+    BlockFitter fitter{context, grid, blocks, visitor, keeper, options.keep_sums};
+    RasterCounts done;
+    done.driver = driver.driver();
+    for (const SliceChunk& c : chunks) done.slices += c.count;
+    for (const TouchedBlock& b : blocks) {
+        done.bricks += static_cast<std::int64_t>(b.bricks.size());
+    }
+    done.setup_seconds = seconds_since(start);
+    progress.begin("draw", "bricks", done.bricks);
+    for (std::size_t begin = 0; begin < blocks.size(); ++done.batches) {
+        progress.check();
+        const auto drawn_at = Clock::now();
+        const DrawnBatch batch = drawer.draw(blocks, begin);
+        done.draw_seconds += seconds_since(drawn_at);
+        const auto fitted_at = Clock::now();
+        fitter.fit(batch);
+        done.fit_seconds += seconds_since(fitted_at);
+        progress.advance(static_cast<std::int64_t>(batch.bricks));
+        begin = batch.end;
+    }
+    if (counts != nullptr) *counts = done;
+    return keeper.finish();
+}
+
+} // namespace heddle::raster

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <heddle/base/progress.h>
+#include <heddle/geom/geometry.h>
+#include <heddle/voxel/voxelize.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace heddle::raster {
+
+/// How fragments of slices that meet in a voxel become its density.             [LopezMoreno17, 3.5]
+enum class Composition : std::uint8_t {
+    Last,      ///< alpha of the highest slice's highest subvoxel: the paper's, the same every run
+    Average,   ///< mean alpha of all fragments, clear ones too
+    Max,       ///< largest alpha
+    Accumulate ///< columns of the fibers themselves, as the sampling voxelizer has them
+};
+
+/// What the rasterizing voxelizer is asked for beside VoxelizeOptions.
+struct RasterOptions {
+    Composition composition = Composition::Accumulate;
+    double slice_spacing = 0.0; ///< scene units, at most; 0: half of the yarn's radius
+};
+
+/// What it did.
+struct RasterCounts {
+    std::int64_t slices = 0;
+    std::int64_t bricks = 0;  ///< of 8 x 8 x 8 voxels, touched
+    std::int64_t batches = 0; ///< of as many bricks as one buffer holds
+    std::string driver;
+    double setup_seconds = 0.0; ///< sections, slices, occupied bricks
+    double draw_seconds = 0.0;  ///< three passes, until their sums are read
+    double fit_seconds = 0.0;   ///< sums to voxels, and levels
+};
+
+/// Makes procedural yarns slices, which is what this voxelizer draws.
+/// @param seed  of the fibers' places
+/// @return  notes on what the slices do not have
+[[nodiscard]] std::vector<std::string> make_slices_of_yarns(Geometry& geometry, std::uint64_t seed);
+
+/// Voxelizes yarns and hair by OpenGL: slices seen along three axes, one column of subvoxels a pixel,
+/// into integer sums that the order of drawing does not show in.        [LopezMoreno17, 3; docs/raster.md]
+/// @param plan     of plan_voxelize; grid, region and spool are taken from it
+/// @param visitor  as for voxelize
+/// @throws Error   Device, OutOfMemory: see Context; Unsupported: meshes, a procedural yarn, more bricks
+///                 than a buffer's table holds; as plan_voxelize; Cancelled
+[[nodiscard]] std::unique_ptr<VoxelSource> voxelize_slices(const Geometry& geometry,
+                                                           const VoxelizeOptions& options,
+                                                           const RasterOptions& raster,
+                                                           const VoxelizePlan& plan,
+                                                           Progress& progress,
+                                                           BlockVisitor* visitor = nullptr,
+                                                           RasterCounts* counts = nullptr);
+
+} // namespace heddle::raster
