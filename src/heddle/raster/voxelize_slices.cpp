@@ -24,13 +24,6 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// What levels alone are built from goes when they are.
-void drop_sums(VoxelBlock& block) {
-    block.columns = {};
-    block.moments = {};
-    block.map_sums = {};
-}
-
 /// The block that holds the least control point: the same for every region of an object.
 Vec3i origin_of(const Geometry& geometry, const LatticeUnits& units) {
     Vec3d least{1e300, 1e300, 1e300};
