@@ -61,6 +61,19 @@ works generate knit --counts 6,6 -o knit.bcc
 works generate grass --counts 20,4 -o grass.glb
 works generate hair --counts 50,8 -o hair.hair
 
+# a slice, its yarn, and OpenGL: the same bits at any thread count; one line where there is no driver
+works slice cotton --size 64 -o slice.png --yarn-file slice.toml --occlusion dark.png --mipmaps sizes.png
+fails 2 "is not a procedural yarn" slice slice.toml -o again.png
+fails 2 "--composition is of no use here" voxelize knit.bcc -o a.vdb --composition max
+fails 2 "--fit last is of no use here" voxelize knit.bcc -o a.vdb --backend raster --fit last
+fails 3 "has meshes" voxelize grass.glb --voxels 32 -o a.vdb --backend raster
+__EGL_VENDOR_LIBRARY_DIRS=/nonexistent fails 4 "opengl: no driver" voxelize knit.bcc --yarn-radius 0.1 --voxels 32 -o a.vdb --backend raster --quiet
+for threads in 1 2; do
+    works voxelize knit.bcc --yarn slice.toml --voxels 32 --backend raster --threads $threads -o "raster$threads.vdb"
+done
+works info raster1.vdb --json && hash1=$(json content_hash)
+works info raster2.vdb --json && [ "$(json content_hash)" = "$hash1" ] || wrong "raster: other bits with 2 threads"
+
 # bad inputs, with an old output in the way
 echo old >old.vdb
 bad() { fails 3 "$1" voxelize "$2" --voxels 32 -o old.vdb; }

@@ -7,6 +7,7 @@
 #include <heddle/cli/report.h>
 #include <heddle/cli/text.h>
 #include <heddle/cli/voxel_options.h>
+#include <heddle/cli/voxelize_raster.h>
 #include <heddle/cli/voxelize_vol.h>
 #include <heddle/io/vdb/write_vdb.h>
 #include <heddle/voxel/voxelize.h>
@@ -85,6 +86,7 @@ void run_voxelize(const Arguments& arguments, Report& report, ProgressBar& bar) 
     bar.begin("read", "files", 1);
     Geometry geometry = load_geometry(arguments.text("FILE"), arguments);
     apply_model(geometry, arguments);
+    prepare_backend(geometry, arguments);
     if (!arguments.given("footprints") && geometry.meshes.empty() &&
         arguments.text("lod") != "naive") {
         options.footprints = 4; // transport through fibers needs them: docs/transport.md
@@ -99,9 +101,11 @@ void run_voxelize(const Arguments& arguments, Report& report, ProgressBar& bar) 
     report_plan(report, plan);
     if (dry_run) return;
 
-    VoxelLevels levels =
-        finish_levels(levels_above.get(), voxelize_where(device, geometry, options, plan, bar,
-                                                         levels_above.get(), report));
+    VoxelLevels levels = finish_levels(
+        levels_above.get(),
+        uses_raster(arguments)
+            ? voxelize_raster(geometry, options, plan, arguments, bar, levels_above.get(), report)
+            : voxelize_where(device, geometry, options, plan, bar, levels_above.get(), report));
     geometry = {}; // its memory is better used by the writer
     write_output([&] { write_vdb(levels, output, bar); });
     bar.finish();
@@ -148,6 +152,7 @@ Command voxelize_command() {
         {"--fit", "MODE", "moments", one_of({"moments", "last"}), "",
          "moments: all directions count; last: one sample's, as earlier voxelizers"},
     });
+    add(raster_options());
     add(level_options());
     add({
         {"--footprints", "N", "(4 of yarn and hair, else 0)", one_of({"0", "4", "8"}),

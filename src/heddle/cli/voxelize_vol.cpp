@@ -1,3 +1,4 @@
+#include <heddle/cli/voxelize_raster.h>
 #include <heddle/cli/voxelize_vol.h>
 
 #include <heddle/base/memory.h>
@@ -21,7 +22,7 @@ namespace {
 void refuse_other_options(const Arguments& arguments) {
     std::vector<std::string> useless{"bounds", "subvoxels", "coverage", "samples", "fit"};
     for (const std::vector<Option>& rows :
-         {resolution_options(), load_options(), model_options()}) {
+         {resolution_options(), load_options(), model_options(), raster_options()}) {
         for (const Option& row : rows) useless.push_back(row.key());
     }
     for (const std::string& key : useless) {

@@ -1,0 +1,89 @@
+#include <heddle/base/error.h>
+#include <heddle/cli/voxelize_raster.h>
+#include <heddle/raster/voxelize_slices.h>
+
+#include <algorithm>
+#include <string>
+
+namespace heddle::cli {
+namespace {
+
+const std::vector<std::string>& composition_names() {
+    static const std::vector<std::string> names{"last", "average", "max", "accumulate"};
+    return names; // in the order of raster::Composition
+}
+
+raster::RasterOptions options_from(const Arguments& arguments) {
+    raster::RasterOptions options;
+    const std::vector<std::string>& names = composition_names();
+    const auto name = std::find(names.begin(), names.end(), arguments.text("composition"));
+    options.composition = static_cast<raster::Composition>(name - names.begin());
+    if (arguments.given("slice-spacing")) {
+        options.slice_spacing = arguments.number("slice-spacing");
+    }
+    return options;
+}
+
+void report_counts(Report& report, const raster::RasterCounts& counts) {
+    report.text("driver", counts.driver);
+    report.count("slices", counts.slices);
+    report.count("bricks", counts.bricks, "of 8 voxels each way, touched by slices");
+    report.count("draw batches", counts.batches);
+    report.seconds("slices placed", counts.setup_seconds);
+    report.seconds("three passes", counts.draw_seconds);
+    report.seconds("sums to voxels", counts.fit_seconds);
+}
+
+} // namespace
+
+std::vector<Option> raster_options() {
+    return {
+        {"--backend", "NAME", "sample", one_of({"sample", "raster"}), "",
+         "sample: fibers, on the CPU; raster: slices of yarns and hair, drawn by OpenGL"},
+        {"--composition", "POLICY", "accumulate", one_of(composition_names()), "",
+         "of --backend raster: accumulate: the fibers' own coverage; else a voxel's density is the "
+         "last, average or largest alpha of the slices in it"},
+        {"--slice-spacing", "S", "(half of the yarn's radius)", positive(), "scene units",
+         "of --backend raster: between slices, at most"},
+    };
+}
+
+bool uses_raster(const Arguments& arguments) {
+    return arguments.text("backend") == "raster";
+}
+
+void prepare_backend(Geometry& geometry, const Arguments& arguments) {
+    if (!uses_raster(arguments)) {
+        for (const char* option : {"composition", "slice-spacing"}) {
+            if (!arguments.given(option)) continue;
+            throw UsageError(str("--", option, " is of no use here: it needs --backend raster"));
+        }
+        return;
+    }
+    if (arguments.text("device") == "cuda") {
+        throw UsageError("--device cuda is of no use here: it needs --backend sample");
+    }
+    if (arguments.text("fit") == "last") {
+        throw UsageError("--fit last is of no use here: it needs --backend sample");
+    }
+    for (std::string& note : raster::make_slices_of_yarns(
+             geometry, static_cast<std::uint64_t>(arguments.integer("seed")))) {
+        geometry.notes.push_back(std::move(note));
+    }
+}
+
+std::unique_ptr<VoxelSource> voxelize_raster(const Geometry& geometry,
+                                             const VoxelizeOptions& options,
+                                             const VoxelizePlan& plan,
+                                             const Arguments& arguments,
+                                             Progress& progress,
+                                             BlockVisitor* visitor,
+                                             Report& report) {
+    raster::RasterCounts counts;
+    std::unique_ptr<VoxelSource> grid = raster::voxelize_slices(
+        geometry, options, options_from(arguments), plan, progress, visitor, &counts);
+    report_counts(report, counts);
+    return grid;
+}
+
+} // namespace heddle::cli
