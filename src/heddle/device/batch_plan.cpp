@@ -15,7 +15,7 @@ constexpr std::int64_t kMostBlocks = (std::int64_t{1} << 31) / kBlockCells - 1;
 constexpr double kFill = 0.4;
 
 /// The scans that find voxels.
-constexpr std::int64_t kBytesPerCell = 2 * (1 + 4);
+constexpr std::int64_t kBytesPerCell = (1 + 4) + (2 + 4);
 
 /// Chords of a piece of yarn, about: its frames and counts.
 constexpr std::int64_t kFramesPerYarn = 20;

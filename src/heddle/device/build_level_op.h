@@ -81,16 +81,16 @@ struct MergeChildrenOp {
 
 /// Moves the lobes that are left to the parents' arrays.
 struct TakeLobesOp {
-    const std::uint32_t* first_child;
-    const std::uint32_t* lobe_below; ///< per child: its first lobe
-    const std::uint32_t* first_lobe; ///< per parent, and the end
+    const std::uint32_t* first_child; ///< null: a parent is its only child
+    const std::uint32_t* lobe_below;  ///< per child: its first lobe
+    const std::uint32_t* first_lobe;  ///< per parent, and the end
     const DirectionSums* from;
     const MapSums* maps_from; ///< null without
     DirectionSums* to;
     MapSums* maps_to;
 
     HEDDLE_HD void operator()(std::size_t p) const {
-        const std::uint32_t source = lobe_below[first_child[p]];
+        const std::uint32_t source = lobe_below[first_child == nullptr ? p : first_child[p]];
         const std::uint32_t target = first_lobe[p];
         const std::uint32_t count = first_lobe[p + 1] - target;
         for (std::uint32_t k = 0; k < count; ++k) to[target + k] = from[source + k];

@@ -35,32 +35,30 @@ struct SumsPlace {
     }
 };
 
-/// Counts what voxel i of a batch will have: 0 or 1 voxels, and its lobes.
+/// Counts what voxel i of a batch has: 0 or 1 voxels, and lobes, one a material.
 struct CountVoxelOp {
     DenseSums sums;
-    int max_lobes;
     std::uint8_t* voxels;
-    std::uint8_t* lobes;
+    std::uint16_t* lobes;
 
     HEDDLE_HD void operator()(std::size_t i) const {
         const SumsPlace place(sums.blocks, i);
         int count = 0;
         if (place.cell >= 0) {
             const BatchBlock& block = sums.blocks[place.slot];
-            for (std::uint32_t p = 0; p < block.planes && count < max_lobes; ++p) {
+            for (std::uint32_t p = 0; p < block.planes; ++p) {
                 const std::size_t at = std::size_t{block.first_plane + p} * kBlockCells +
                                        static_cast<std::size_t>(place.cell);
                 count += sums.lobes[at * DenseLobe::kLobeWords + 6] != 0 ? 1 : 0;
             }
         }
         voxels[i] = count > 0 ? 1 : 0;
-        lobes[i] = static_cast<std::uint8_t>(count);
+        lobes[i] = static_cast<std::uint16_t>(count);
     }
 };
 
-/// Writes voxel i of a batch, where it is one, to its place in the level's arrays.
-/// @tparam kPool  false: no block has more than one plane, and nothing is to be merged
-template <bool kPool>
+/// Writes voxel i of a batch, where it is one, to its place in the level's arrays, with a lobe a
+/// material.
 struct FitVoxelOp {
     DenseSums sums;
     FitSettings settings;
@@ -93,10 +91,28 @@ struct FitVoxelOp {
         for (int w = 0; w < 8; ++w) count += count_bits(masks[3 + w]);
         hits[v] = static_cast<std::uint32_t>(count);
         lobe_begin[v] = first_lobe[i];
-        order[v] = write_lobes(sums.blocks[place.slot], cell, first_lobe[i]);
+        order[v] = 0;
+        write_lobes(sums.blocks[place.slot], cell, first_lobe[i]);
     }
 
 private:
+    /// In the order of their materials: as they were met depends on chance.
+    HEDDLE_HD void write_lobes(const BatchBlock& block, std::size_t cell, std::uint32_t to) const {
+        std::uint32_t plane = block.first_plane;
+        for (std::uint32_t w = 0; w < 4; ++w) {
+            for (std::uint64_t bits = block.materials[w]; bits != 0; bits &= bits - 1) {
+                const std::size_t at = std::size_t{plane++} * kBlockCells + cell;
+                if (sums.lobes[at * DenseLobe::kLobeWords + 6] == 0) continue;
+                const int bit = count_bits((bits & (~bits + 1)) - 1);
+                lobes[to] = lobe_at(w * 64 + static_cast<std::uint32_t>(bit), at);
+                if (maps != nullptr) {
+                    maps[to] =
+                        *reinterpret_cast<const MapSums*>(sums.maps + at * DenseLobe::kMapWords);
+                }
+                ++to;
+            }
+        }
+    }
     HEDDLE_HD DirectionSums lobe_at(std::uint32_t material, std::size_t at) const {
         DirectionSums out;
         const std::uint64_t* words = sums.lobes + at * DenseLobe::kLobeWords;
@@ -106,49 +122,30 @@ private:
         out.normals = (settings.normals[material / 64] >> (material % 64) & 1u) != 0;
         return out;
     }
-    [[nodiscard]] HEDDLE_HD const MapSums* maps_at(std::size_t at) const {
-        if (maps == nullptr) return nullptr;
-        return reinterpret_cast<const MapSums*>(sums.maps + at * DenseLobe::kMapWords);
-    }
+};
 
-    /// @return  VoxelBlock::merge_order
-    HEDDLE_HD std::uint32_t
-    write_lobes(const BatchBlock& block, std::size_t cell, std::uint32_t to) const {
-        if constexpr (kPool) {
-            LobePool pool;
-            pool_lobes(block, cell, pool);
-            const bool with_maps = maps != nullptr;
-            const std::uint32_t result = reduce(pool, settings.max_lobes, with_maps, ByMoments{});
-            for (int k = 0; k < pool.count; ++k) {
-                const std::size_t lobe = to + static_cast<std::size_t>(k);
-                lobes[lobe] = pool.sums[static_cast<std::size_t>(k)];
-                if (with_maps) maps[lobe] = pool.maps[static_cast<std::size_t>(k)];
-            }
-            return result;
-        } else {
-            const std::size_t at = std::size_t{block.first_plane} * kBlockCells + cell;
-            lobes[to] = lobe_at(lowest_material(block), at);
-            if (maps != nullptr) maps[to] = *maps_at(at);
-            return 0;
+/// Merges the lobes of one voxel where they lie until as many are left as may be stored, and lines them
+/// up.
+struct MergeLobesOp {
+    const std::uint32_t* first_lobe; ///< per voxel, and the end
+    DirectionSums* lobes;
+    MapSums* maps; ///< null without
+    int max_lobes;
+    std::uint32_t* order;
+    std::uint8_t* count; ///< lobes left
+
+    HEDDLE_HD void operator()(std::size_t v) const {
+        const std::uint32_t begin = first_lobe[v];
+        const auto all = static_cast<int>(first_lobe[v + 1] - begin);
+        LobeRow row{0, lobes + begin, maps == nullptr ? nullptr : maps + begin};
+        for (int next = 0; next < all; ++next) { // as many at once as a pool holds
+            if (row.count == kMaxPool) reduce(row, kMaxLobes, ByMoments{});
+            row.sums[row.count] = row.sums[next];
+            if (row.maps != nullptr) row.maps[row.count] = row.maps[next];
+            ++row.count;
         }
-    }
-
-    HEDDLE_HD static std::uint32_t lowest_material(const BatchBlock& block) {
-        std::uint32_t w = 0;
-        while (block.materials[w] == 0) ++w;
-        const std::uint64_t bits = block.materials[w];
-        return w * 64 + static_cast<std::uint32_t>(count_bits((bits & (~bits + 1)) - 1));
-    }
-
-    HEDDLE_HD void pool_lobes(const BatchBlock& block, std::size_t cell, LobePool& pool) const {
-        std::uint32_t plane = block.first_plane;
-        for (std::uint32_t material = 0; material < 256; ++material) {
-            if ((block.materials[material / 64] >> (material % 64) & 1u) == 0) continue;
-            const std::size_t at = std::size_t{plane++} * kBlockCells + cell;
-            if (sums.lobes[at * DenseLobe::kLobeWords + 6] == 0) continue;
-            if (pool.count == kMaxPool) reduce(pool, kMaxLobes, maps != nullptr, ByMoments{});
-            pool.add(lobe_at(material, at), maps_at(at));
-        }
+        order[v] = reduce(row, max_lobes, ByMoments{});
+        count[v] = static_cast<std::uint8_t>(row.count);
     }
 };
 

@@ -148,7 +148,7 @@ template <typename Exec>
     exec.set_stage("sums");
     const std::size_t n = batch.blocks.size();
     std::size_t planes = 0;
-    bool merging = scene.fit.max_lobes == 1;
+    bool merging = false;
     for (const BatchBlock& block : batch.blocks) {
         planes += block.planes;
         merging = merging || block.planes > 1;
