@@ -45,7 +45,7 @@ for name in $("$heddle" help-tables | sed -n 's/^\*\*heddle \(.*\)\*\*$/\1/p'); 
     grep -qw -- "$name" out.txt || wrong "heddle alone does not name $name"
 done
 works --version
-for command in info generate slice voxelize lod lod-report material preview render export; do
+for command in info generate slice voxelize lod lod-report material preview render view export; do
     works "$command" --help
     grep -q -- '--threads N' out.txt || wrong "no --threads in the help of $command"
 done
@@ -73,6 +73,12 @@ for threads in 1 2; do
 done
 works info raster1.vdb --json && hash1=$(json content_hash)
 works info raster2.vdb --json && [ "$(json content_hash)" = "$hash1" ] || wrong "raster: other bits with 2 threads"
+
+works view knit.bcc --headless --yarn slice.toml --frames 2 --size 64x64 -o frames
+[ "$(head -c 4 frames/frame_0001.png | tail -c 3)" = PNG ] || wrong "the second frame is no PNG"
+fails 2 "--headless is missing" view knit.bcc -o frames
+fails 3 "has meshes" view grass.glb --headless -o frames
+fails 2 "is of no use here" view grass.glb --headless --yarn cotton -o frames
 
 # bad inputs, with an old output in the way
 echo old >old.vdb

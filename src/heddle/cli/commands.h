@@ -16,13 +16,14 @@ namespace heddle::cli {
 [[nodiscard]] Command preview_command();
 [[nodiscard]] Command render_command();
 [[nodiscard]] Command export_command();
+[[nodiscard]] Command view_command();
 
 /// All subcommands, in the order of a first use.
 [[nodiscard]] inline const std::vector<Command>& commands() {
     static const std::vector<Command> all{
         info_command(),   generate_command(),   slice_command(),    voxelize_command(),
         lod_command(),    lod_report_command(), material_command(), preview_command(),
-        render_command(), export_command()};
+        render_command(), view_command(),       export_command()};
     return all;
 }
 

@@ -185,6 +185,7 @@ Texture bake_occlusion(const YarnType& yarn) {
     const float texel = 2.0f * yarn.model_radius / static_cast<float>(image.width);
     const float rise = static_cast<float>(image.height) / static_cast<float>(image.width);
     const float extinction = texel * 0.63661977f / yarn.fiber_radius;
+    const float dark = 8.0f / extinction; // e^-8: no more to be seen of 255
     parallel_chunks(out.texels.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const float col = static_cast<float>(i % width) + 0.5f;
@@ -193,7 +194,8 @@ Texture bake_occlusion(const YarnType& yarn) {
             for (int d = 0; d < kDirections; ++d) {
                 const SinCos at = sincos_turns((d + 0.5) / kDirections);
                 float depth = 0.0f;
-                for (float t = 0.5f; t < 1.5f * static_cast<float>(width); t += 1.0f) {
+                const float far = 1.5f * static_cast<float>(width);
+                for (float t = 0.5f; t < far && depth < dark; t += 1.0f) {
                     depth += alpha_at(image, col + t * at.cos, row + t * at.sin * rise);
                 }
                 light += std::exp(-extinction * depth);
