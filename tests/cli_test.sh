@@ -74,6 +74,11 @@ done
 works info raster1.vdb --json && hash1=$(json content_hash)
 works info raster2.vdb --json && [ "$(json content_hash)" = "$hash1" ] || wrong "raster: other bits with 2 threads"
 
+works export raster1.vdb --to mitsuba06 -o flakes
+works info flakes/volume.vol
+works voxelize flakes/volume.vol --levels 0 -o flakes.vdb
+fails 2 "--pad is of no use here" export raster1.vdb --to mitsuba06 --pad 2 -o flakes
+fails 2 "--stddev is of no use here" export raster1.vdb --stddev 0.5 -o flakes
 works view knit.bcc --headless --yarn slice.toml --frames 2 --size 64x64 -o frames
 [ "$(head -c 4 frames/frame_0001.png | tail -c 3)" = PNG ] || wrong "the second frame is no PNG"
 fails 2 "--headless is missing" view knit.bcc -o frames

@@ -6,6 +6,7 @@
 #include <heddle/cli/report.h>
 #include <heddle/io/vdb/read_vdb.h>
 #include <heddle/io/vol/write_mitsuba.h>
+#include <heddle/io/vol/write_mitsuba06.h>
 #include <heddle/voxel/flake_field.h>
 
 #include <chrono>
@@ -24,7 +25,33 @@ FlakeField read_field(const std::string& path, int level) {
     return {*grid, albedo};
 }
 
+void export_mitsuba06(const Arguments& arguments, Report& report, ProgressBar& bar) {
+    const std::string& folder = arguments.text("output");
+    bar.begin("read", "files", 1);
+    const std::unique_ptr<VoxelGrid> grid =
+        read_vdb(arguments.text("FILE"), static_cast<int>(arguments.integer("level")));
+    Mitsuba06Files files;
+    write_output([&] { files = write_mitsuba06(*grid, folder, arguments.number("stddev"), bar); });
+    bar.finish();
+    if (files.no_fiber > 0) {
+        report.note(str(files.no_fiber, " voxels are of surfaces: they have no direction here"));
+    }
+    report.text("output", folder);
+    report.add("resolution", "resolution", {files.samples.x, files.samples.y, files.samples.z},
+               str(files.samples.x, " x ", files.samples.y, " x ", files.samples.z, " samples"));
+    report.count("blocks", files.blocks, "of 64 samples each way");
+    report.number("scale", files.scale, "extinction per scene unit at density 1");
+    report.bytes("files", files.bytes);
+}
+
 void run_export(const Arguments& arguments, Report& report, ProgressBar& bar) {
+    if (arguments.text("to") == "mitsuba06") {
+        if (arguments.given("pad")) throw UsageError("--pad is of no use here: blocks are sparse");
+        return export_mitsuba06(arguments, report, bar);
+    }
+    if (arguments.given("stddev")) {
+        throw UsageError("--stddev is of no use here: it needs --to mitsuba06");
+    }
     const auto start = std::chrono::steady_clock::now();
     const std::string& folder = arguments.text("output");
     bar.begin("read", "files", 1);
@@ -46,18 +73,22 @@ void run_export(const Arguments& arguments, Report& report, ProgressBar& bar) {
 } // namespace
 
 Command export_command() {
-    return {"export",
-            "a volume for another renderer: dense grids and a scene that loads",
-            {
-                {"FILE", "", "", any_text(), "", "a .vdb that voxelize wrote", true},
-                {"--to", "FORMAT", "mitsuba3", one_of({"mitsuba3"}), "",
-                 "sigma_t.vol, S.vol (one SGGX of normals a voxel), albedo.vol, scene.xml"},
-                {"-o, --output", "DIR", "", any_text(), "", "folder of the files", true},
-                {"--level", "N", "0", integer(0, 1000), "", "of detail; 0 = the finest"},
-                {"--pad", "F", "1", number(1, 1000), "of the box",
-                 "grows it on each axis with emptiness"},
-            },
-            run_export};
+    return {
+        "export",
+        "a volume for another renderer: grids and a scene that loads",
+        {
+            {"FILE", "", "", any_text(), "", "a .vdb that voxelize wrote", true},
+            {"--to", "FORMAT", "mitsuba3", one_of({"mitsuba3", "mitsuba06"}), "",
+             "mitsuba3: sigma_t.vol, S.vol (one SGGX of normals a voxel), albedo.vol, scene.xml; "
+             "mitsuba06: hgridvolume blocks of density and direction, scene.xml"},
+            {"-o, --output", "DIR", "", any_text(), "", "folder of the files", true},
+            {"--level", "N", "0", integer(0, 1000), "", "of detail; 0 = the finest"},
+            {"--pad", "F", "1", number(1, 1000), "of the box",
+             "of mitsuba3: grows it on each axis with emptiness"},
+            {"--stddev", "S", "0.3", number(0.01, 10), "",
+             "of mitsuba06: how far flakes stray from the fiber"},
+        },
+        run_export};
 }
 
 } // namespace heddle::cli

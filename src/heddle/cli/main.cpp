@@ -85,7 +85,7 @@ std::string overview() {
            "look:   info (what a file holds), preview, view, render (pictures), lod-report (errors "
            "of "
            "levels)\n"
-           "change: lod (the levels of a .vdb), material (its materials), export (to Mitsuba 3)\n"
+           "change: lod (the levels of a .vdb), material (its materials), export (to Mitsuba)\n"
            "first:  heddle generate knit -o knit.bcc\n"
            "then:   heddle voxelize knit.bcc --yarn cotton -o knit.vdb\n"
            "and:    heddle preview knit.vdb -o knit.png\n";

@@ -1,0 +1,327 @@
+#include <heddle/io/vol/write_mitsuba06.h>
+
+#include <heddle/base/error.h>
+#include <heddle/io/output_file.h>
+#include <heddle/io/vol/vol_dictionary.h>
+#include <heddle/sggx/eigen.h>
+#include <heddle/sggx/pack.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <numbers>
+#include <sstream>
+#include <tuple>
+#include <vector>
+
+namespace heddle {
+namespace {
+
+constexpr std::int32_t kSamples = 64; ///< of a block, per axis
+constexpr std::int32_t kPitch = kSamples - 1;
+constexpr std::int32_t kMostBlocks = 999; ///< three digits in a file's name
+constexpr std::uint8_t kNoDirection = 255;
+
+/// What one voxel becomes.
+struct Sample {
+    Vec3i at; ///< voxel index
+    float density = 0.0f;
+    std::uint8_t theta = kNoDirection;
+    std::uint8_t phi = 0;
+};
+
+/// theta = b0 pi / 255, phi = b1 2 pi / 255; b0 below 255, for that is none.
+void set_direction(Sample& sample, Vec3f t) {
+    if (t.z < 0.0f) t = t * -1.0f; // axial: theta is at most pi / 2
+    const double theta = std::acos(std::min(1.0, static_cast<double>(t.z)));
+    double phi = std::atan2(static_cast<double>(t.y), static_cast<double>(t.x));
+    if (phi < 0.0) phi += 2.0 * std::numbers::pi;
+    sample.theta = static_cast<std::uint8_t>(theta * 255.0 / std::numbers::pi + 0.5);
+    sample.phi = static_cast<std::uint8_t>(phi * 255.0 / (2.0 * std::numbers::pi) + 0.5);
+}
+
+/// The direction that a reader gets.
+Vec3d stored_direction(const Sample& sample) {
+    const double theta = sample.theta * std::numbers::pi / 255.0;
+    const double phi = sample.phi * 2.0 * std::numbers::pi / 255.0;
+    return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
+}
+
+/// Extinction that density 1 has along the mean axis, of flakes about `t` (docs/import.md).
+double mean_sine(Vec3d t) {
+    double sum = 0.0;
+    for (int a = 0; a < 3; ++a) {
+        sum += std::sqrt(std::max(0.0, 1.0 - t[a] * t[a])) / 3.0;
+    }
+    return 4.0 / std::numbers::pi * sum;
+}
+
+/// Mean extinction over the axes, per scene unit.
+double extinction(const Coverage& c, const Lattice& lattice) {
+    const double columns = static_cast<double>(lattice.subvoxels) * lattice.subvoxels;
+    const double cap = 1.0 - 0.5 / columns;
+    const std::array<std::uint16_t, 3> axis{c.x, c.y, c.z};
+    double sum = 0.0;
+    for (std::size_t a = 0; a < 3; ++a) {
+        const double covered = std::min(axis[a] / 65535.0, cap);
+        sum -= std::log1p(-covered) / (3.0 * lattice.voxel_size[static_cast<int>(a)]);
+    }
+    return sum;
+}
+
+template <typename Visit>
+void for_each_sample(const VoxelSource& source, Progress& progress, const Visit& visit) {
+    const VoxelGridInfo& info = source.info();
+    VoxelBlock scratch;
+    for (std::size_t b = 0; b < source.block_count(); ++b) {
+        progress.check();
+        const VoxelBlock& block = source.block(b, scratch);
+        for (const VoxelLeaf& leaf : block.leaves) {
+            std::size_t v = leaf.first_voxel;
+            std::size_t lobe = leaf.first_lobe;
+            for (int bit = 0; bit < 512; ++bit) {
+                if ((leaf.active[static_cast<std::size_t>(bit / 64)] >> (bit % 64) & 1u) == 0) {
+                    continue;
+                }
+                Sample sample{.at = leaf.origin + Vec3i{bit / 64, bit / 8 % 8, bit % 8}};
+                double density = extinction(block.coverage[v], info.lattice);
+                const Lobe& first = block.lobes[lobe]; // the heaviest
+                if (info.materials[first.material].kind == MaterialKind::Fiber) {
+                    set_direction(sample, principal_direction(unpack(first.sggx)));
+                    density /= mean_sine(stored_direction(sample));
+                }
+                sample.density = static_cast<float>(density);
+                visit(sample);
+                lobe += block.lobe_count[v];
+                ++v;
+            }
+        }
+    }
+}
+
+using Cell = std::tuple<std::int32_t, std::int32_t, std::int32_t>;
+
+/// A sample in one block: number of the sample, density, angles.
+struct Placed {
+    std::uint32_t at;
+    std::uint8_t density, theta, phi;
+};
+
+/// All samples by block; those of a shared layer are in both.
+struct Blocks {
+    Vec3i low; ///< voxel index of sample 0
+    Vec3i cells;
+    std::map<Cell, std::vector<Placed>> placed;
+
+    void add(const Sample& sample, double scale) {
+        const Vec3i at = sample.at - low;
+        const auto density = static_cast<std::uint8_t>(
+            std::min(255.0, static_cast<double>(sample.density) / scale * 255.0 + 0.5));
+        if (density == 0) return;
+        for (int corner = 0; corner < 8; ++corner) {
+            Vec3i cell;
+            Vec3i in;
+            bool here = true;
+            for (int a = 0; a < 3; ++a) {
+                cell[a] =
+                    at[a] / kPitch - (corner >> a & 1); // the block before shares its last layer
+                in[a] = at[a] - cell[a] * kPitch;
+                here = here && cell[a] >= 0 && cell[a] < cells[a] && in[a] < kSamples;
+            }
+            if (!here) continue;
+            const std::int32_t number = (in.z * kSamples + in.y) * kSamples + in.x;
+            placed[{cell.x, cell.y, cell.z}].push_back(
+                {static_cast<std::uint32_t>(number), density, sample.theta, sample.phi});
+        }
+    }
+};
+
+void write_head(OutputFile& file, std::int32_t encoding, std::int32_t channels, const Bounds& box) {
+    file.write("VOL\3", 4);
+    for (const std::int32_t v : {encoding, kSamples, kSamples, kSamples, channels}) {
+        file.write_value(v);
+    }
+    for (const Vec3d& p : {box.lo, box.hi}) {
+        for (int a = 0; a < 3; ++a) file.write_value(static_cast<float>(p[a]));
+    }
+}
+
+void write_whole(const std::string& path,
+                 std::int32_t encoding,
+                 const Bounds& box,
+                 const std::vector<std::uint8_t>& bytes) {
+    OutputFile file(path);
+    write_head(file, encoding, encoding == 4 ? 3 : 1, box); // directions say 3 and store 2 bytes
+    file.write_array(std::span<const std::uint8_t>(bytes));
+    file.commit();
+}
+
+/// Scene units at samples `from` and `to`: at voxels' centres.
+Bounds bounds_of(Vec3i low, Vec3i from, Vec3i to, Vec3d h) {
+    Bounds box;
+    for (int a = 0; a < 3; ++a) {
+        box.lo[a] = (low[a] + from[a] + 0.5) * h[a];
+        box.hi[a] = (low[a] + to[a] + 0.5) * h[a];
+    }
+    return box;
+}
+
+std::int64_t write_block(const Blocks& blocks,
+                         const Cell& cell,
+                         const std::vector<Placed>& placed,
+                         Vec3d h,
+                         const std::string& folder) {
+    constexpr std::size_t kCount = std::size_t{kSamples} * kSamples * kSamples;
+    std::vector<std::uint8_t> density(kCount, 0);
+    std::vector<std::uint8_t> angles(2 * kCount, kNoDirection);
+    for (const Placed& p : placed) {
+        density[p.at] = p.density;
+        angles[2 * p.at] = p.theta;
+        angles[2 * p.at + 1] = p.phi;
+    }
+    const auto [x, y, z] = cell;
+    const Vec3i first = Vec3i{x, y, z} * kPitch;
+    const Bounds box = bounds_of(blocks.low, first, first + Vec3i{kPitch, kPitch, kPitch}, h);
+    write_whole(folder + "/" + BlockName{"density_", ".vol", {}}.of({x, y, z}), 3, box, density);
+    write_whole(folder + "/" + BlockName{"orientation_", ".vol", {}}.of({x, y, z}), 4, box, angles);
+    return static_cast<std::int64_t>(3 * kCount + 96);
+}
+
+std::int64_t write_dictionary(const Blocks& blocks, Vec3d h, const std::string& folder) {
+    OutputFile file(folder + "/volume.vol");
+    const Bounds box = bounds_of(blocks.low, {}, blocks.cells * kPitch, h);
+    for (const Vec3d& p : {box.lo, box.hi}) {
+        for (int a = 0; a < 3; ++a) file.write_value(static_cast<float>(p[a]));
+    }
+    for (int a = 0; a < 3; ++a) file.write_value(blocks.cells[a]);
+    for (const auto& [cell, placed] : blocks.placed) {
+        const auto [x, y, z] = cell;
+        for (const std::int32_t v : {x, y, z}) file.write_value(v);
+    }
+    file.commit();
+    return static_cast<std::int64_t>(36 + 12 * blocks.placed.size());
+}
+
+std::string volume_element(const char* name, const char* prefix) {
+    return str("    <volume name=\"", name, "\" type=\"hgridvolume\">\n",
+               "      <string name=\"filename\" value=\"volume.vol\"/>\n",
+               "      <string name=\"prefix\" value=\"", prefix, "\"/>\n",
+               "      <string name=\"postfix\" value=\".vol\"/>\n    </volume>\n");
+}
+
+std::string point(const char* name, Vec3d v) {
+    return str("      <", name, " x=\"", v.x, "\" y=\"", v.y, "\" z=\"", v.z, "\"/>\n");
+}
+
+std::string scene_text(const Bounds& box, double scale, double stddev, Vec3f albedo) {
+    const Vec3d middle = (box.lo + box.hi) * 0.5;
+    const double radius = 0.5 * length(box.size());
+    const Vec3d eye = middle + normalize(Vec3d{0.5, 0.35, 1.0}) * (3.0 * radius);
+    const auto list = [](Vec3d v) { return str(v.x, ", ", v.y, ", ", v.z); };
+    return str(
+        "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<scene version=\"0.6.0\">\n",
+        "  <integrator type=\"volpath\"/>\n  <medium type=\"heterogeneous\" id=\"medium\">\n",
+        "    <string name=\"method\" value=\"woodcock\"/>\n", "    <float name=\"scale\" value=\"",
+        scale, "\"/>\n", volume_element("density", "density_"),
+        volume_element("orientation", "orientation_"),
+        "    <volume name=\"albedo\" type=\"constvolume\">\n      <spectrum name=\"value\" "
+        "value=\"",
+        albedo.x, ", ", albedo.y, ", ", albedo.z, "\"/>\n    </volume>\n",
+        "    <phase type=\"microflake\">\n      <float name=\"stddev\" value=\"", stddev,
+        "\"/>\n    </phase>\n  </medium>\n  <shape type=\"cube\">\n",
+        "    <transform name=\"toWorld\">\n", point("scale", box.size() * 0.5),
+        point("translate", middle), "    </transform>\n",
+        "    <ref name=\"interior\" id=\"medium\"/>\n  </shape>\n",
+        "  <emitter type=\"constant\"/>\n  <sensor type=\"perspective\">\n",
+        "    <float name=\"fov\" value=\"40\"/>\n    <transform name=\"toWorld\">\n",
+        "      <lookat origin=\"", list(eye), "\" target=\"", list(middle),
+        "\" up=\"0, 1, 0\"/>\n    </transform>\n",
+        "    <sampler type=\"independent\">\n      <integer name=\"sampleCount\" value=\"64\"/>\n",
+        "    </sampler>\n    <film type=\"hdrfilm\"/>\n  </sensor>\n</scene>\n");
+}
+
+void make_folder(const std::string& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (!std::filesystem::is_directory(folder)) {
+        throw Error(ErrorCode::CannotWrite, "it is no folder and cannot be made",
+                    "write to another place", {.path = folder});
+    }
+}
+
+/// What a first walk over the voxels finds.
+struct Extent {
+    Vec3i lo, hi; ///< [lo, hi]
+    double densest = 0.0;
+    std::int64_t voxels = 0;
+    std::int64_t no_fiber = 0;
+
+    void grow(const Sample& s) {
+        for (int a = 0; a < 3; ++a) {
+            lo[a] = voxels == 0 ? s.at[a] : std::min(lo[a], s.at[a]);
+            hi[a] = voxels == 0 ? s.at[a] : std::max(hi[a], s.at[a]);
+        }
+        densest = std::max(densest, static_cast<double>(s.density));
+        no_fiber += s.theta == kNoDirection ? 1 : 0;
+        ++voxels;
+    }
+};
+
+/// The blocks of the voxels and a layer of emptiness about them.
+Blocks plan_blocks(const Extent& extent) {
+    Blocks blocks;
+    for (int a = 0; a < 3; ++a) {
+        blocks.low[a] = extent.lo[a] - 1;
+        blocks.cells[a] = (extent.hi[a] + 1 - blocks.low[a] + kPitch - 1) / kPitch;
+        if (blocks.cells[a] > kMostBlocks) {
+            throw Error(ErrorCode::InvalidArgument,
+                        str("export: ", blocks.cells[a], " blocks of 64 samples along ", "xyz"[a],
+                            " (limit 999)"),
+                        "export a coarser --level");
+        }
+    }
+    return blocks;
+}
+
+} // namespace
+
+Mitsuba06Files write_mitsuba06(const VoxelSource& source,
+                               const std::string& folder,
+                               double stddev,
+                               Progress& progress) {
+    Extent extent;
+    for_each_sample(source, progress, [&](const Sample& s) { extent.grow(s); });
+    if (!(extent.densest > 0.0)) {
+        throw Error(ErrorCode::InvalidArgument,
+                    "export: the volume has no voxels that hide anything",
+                    "export a volume that has some");
+    }
+    Blocks blocks = plan_blocks(extent);
+    for_each_sample(source, progress, [&](const Sample& s) { blocks.add(s, extent.densest); });
+    make_folder(folder);
+    const Vec3d h = source.info().lattice.voxel_size;
+    Mitsuba06Files out{.samples = blocks.cells * kPitch + Vec3i{1, 1, 1},
+                       .blocks = static_cast<std::int64_t>(blocks.placed.size()),
+                       .scale = extent.densest,
+                       .no_fiber = extent.no_fiber};
+    progress.begin("export", "blocks", out.blocks);
+    for (const auto& [cell, placed] : blocks.placed) {
+        progress.check();
+        out.bytes += write_block(blocks, cell, placed, h, folder);
+        progress.advance(1);
+    }
+    out.bytes += write_dictionary(blocks, h, folder);
+    Vec3f albedo{0.8f, 0.8f, 0.8f};
+    if (!source.info().materials.empty()) albedo = source.info().materials[0].albedo;
+    OutputFile scene(folder + "/scene.xml");
+    const std::string text = scene_text(bounds_of(blocks.low, {}, blocks.cells * kPitch, h),
+                                        extent.densest, stddev, albedo);
+    scene.write(text.data(), text.size());
+    scene.commit();
+    out.bytes += static_cast<std::int64_t>(text.size());
+    return out;
+}
+
+} // namespace heddle
