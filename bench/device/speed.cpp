@@ -65,11 +65,12 @@ Run run_device(const Geometry& g,
     Run out;
     const VoxelizePlan plan = plan_range(g, options);
     const bool cuda = !gpu::find_device().name.empty();
+    device.report = &out.report;
     out.seconds = seconds_of([&] {
         LevelBuilder builder({});
         Progress silent;
         auto level0 = (cuda ? voxelize_on_cuda : voxelize_on_host_executor)(
-            g, options, plan, device, silent, levels ? &builder : nullptr, &out.report);
+            g, options, plan, device, silent, levels ? &builder : nullptr);
         if (levels) {
             out.levels = builder.finish(std::move(level0));
         } else {

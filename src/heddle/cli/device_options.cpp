@@ -54,8 +54,10 @@ std::unique_ptr<VoxelSource> voxelize_where(const DeviceChoice& choice,
                                             Report& report) {
     if (!choice.cuda) return voxelize(geometry, options, plan, progress, levels);
     DeviceReport took;
+    DeviceOptions device = choice.options;
+    device.report = &took;
     std::unique_ptr<VoxelSource> made =
-        voxelize_on_cuda(geometry, options, plan, choice.options, progress, levels, &took);
+        voxelize_on_cuda(geometry, options, plan, device, progress, levels);
     report.bytes("peak device memory", took.peak_bytes);
     report.count("device batches", took.batches);
     report.seconds("upload", took.upload_seconds);

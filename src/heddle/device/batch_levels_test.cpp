@@ -193,21 +193,6 @@ VoxelizeOptions voxels(std::int64_t n) {
     return options;
 }
 
-/// The swatch with flyaways.
-Geometry hairy_swatch() {
-    Geometry g = swatch();
-    YarnType& y = g.yarns[0];
-    y.flyaways = true;
-    y.hair_density = 3.0f;
-    y.hair_ze = {0.5f, 0.2f};
-    y.hair_r0 = {0.3f, 0.1f};
-    y.hair_re = {0.4f, 0.1f};
-    y.hair_pe = {0.5f, 0.2f};
-    y.loop_density = 2.0f;
-    y.loop_r1 = {0.8f, 0.2f};
-    return g;
-}
-
 TEST(BatchLevels, OfYarnAndHairAreTheLevelBuilders) {
     VoxelizeOptions options = voxels(150);
     options.footprints = 4;

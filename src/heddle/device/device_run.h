@@ -70,8 +70,7 @@ public:
           make_(std::move(make)),
           budget_(device.memory_bytes) {}
 
-    [[nodiscard]] std::unique_ptr<VoxelSource>
-    run(Progress& progress, LevelBuilder* levels, DeviceReport& report);
+    [[nodiscard]] std::unique_ptr<VoxelSource> run(Progress& progress, LevelBuilder* levels);
 
 private:
     /// What one stream has of its own.
@@ -241,8 +240,8 @@ void DeviceRun<Exec>::finish_batch(Lane& lane,
 }
 
 template <typename Exec>
-std::unique_ptr<VoxelSource>
-DeviceRun<Exec>::run(Progress& progress, LevelBuilder* levels, DeviceReport& report) {
+std::unique_ptr<VoxelSource> DeviceRun<Exec>::run(Progress& progress, LevelBuilder* levels) {
+    DeviceReport report;
     const auto seconds_since = [](std::chrono::steady_clock::time_point start) {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     };
@@ -272,6 +271,7 @@ DeviceRun<Exec>::run(Progress& progress, LevelBuilder* levels, DeviceReport& rep
     report.batches = batches_;
     report.peak_bytes = budget_.peak();
     report.stages = times_.all();
+    if (device_.report != nullptr) *device_.report = report;
     return keeper_->finish();
 }
 

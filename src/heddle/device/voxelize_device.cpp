@@ -30,8 +30,7 @@ std::unique_ptr<VoxelSource> voxelize_on_host_executor(const Geometry& geometry,
                                                        const VoxelizePlan& plan,
                                                        const DeviceOptions& device,
                                                        Progress& progress,
-                                                       LevelBuilder* levels,
-                                                       DeviceReport* report) {
+                                                       LevelBuilder* levels) {
     check_device_options(options, device);
     DeviceOptions with_memory = device;
     if (device.memory_bytes == 0) with_memory.memory_bytes = available_bytes() / 10 * 9;
@@ -39,8 +38,7 @@ std::unique_ptr<VoxelSource> voxelize_on_host_executor(const Geometry& geometry,
     DeviceRun<gpu::HostExecutor> run(context, plan, with_memory, [&](gpu::Budget& budget) {
         return std::make_unique<gpu::HostExecutor>(budget, device.vanish_after);
     });
-    DeviceReport ignored;
-    return run.run(progress, levels, report != nullptr ? *report : ignored);
+    return run.run(progress, levels);
 }
 
 #if !HEDDLE_HAS_CUDA
@@ -50,8 +48,7 @@ std::unique_ptr<VoxelSource> voxelize_on_cuda(const Geometry&,
                                               const VoxelizePlan&,
                                               const DeviceOptions&,
                                               Progress&,
-                                              LevelBuilder*,
-                                              DeviceReport*) {
+                                              LevelBuilder*) {
     throw Error(ErrorCode::Device, "voxelize: " + gpu::find_device().why, "use the CPU");
 }
 

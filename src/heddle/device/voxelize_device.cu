@@ -10,8 +10,7 @@ std::unique_ptr<VoxelSource> voxelize_on_cuda(const Geometry& geometry,
                                               const VoxelizePlan& plan,
                                               const DeviceOptions& device,
                                               Progress& progress,
-                                              LevelBuilder* levels,
-                                              DeviceReport* report) {
+                                              LevelBuilder* levels) {
     check_device_options(options, device);
     const gpu::Device found = gpu::find_device();
     if (found.name.empty()) throw Error(ErrorCode::Device, "voxelize: " + found.why, "use the CPU");
@@ -21,8 +20,7 @@ std::unique_ptr<VoxelSource> voxelize_on_cuda(const Geometry& geometry,
     DeviceRun<gpu::CudaExecutor> run(context, plan, with_memory, [](gpu::Budget& budget) {
         return std::make_unique<gpu::CudaExecutor>(budget);
     });
-    DeviceReport ignored;
-    return run.run(progress, levels, report != nullptr ? *report : ignored);
+    return run.run(progress, levels);
 }
 
 } // namespace heddle

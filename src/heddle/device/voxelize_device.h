@@ -13,16 +13,6 @@
 
 namespace heddle {
 
-/// How the device is used. Nothing is required.
-struct DeviceOptions {
-    std::int64_t memory_bytes =
-        0;           ///< of the device that may be in use at once; 0: 9/10 of what is free
-    int streams = 2; ///< batches that are on their way at once, each by a thread of the host
-    std::int64_t batches = 0;       ///< at least so many; 0: as memory needs
-    bool time_stages = false;       ///< each launch is waited for: slower as a whole
-    std::int64_t vanish_after = -1; ///< of the host executor: launches until its device is gone
-};
-
 /// What a run on the device took.
 struct DeviceReport {
     std::int64_t peak_bytes = 0; ///< of device memory
@@ -31,6 +21,17 @@ struct DeviceReport {
     double count_seconds = 0.0;                         ///< primitives counted by block
     double batch_seconds = 0.0;                         ///< the rest
     std::vector<std::pair<std::string, double>> stages; ///< seconds of launches, with time_stages
+};
+
+/// How the device is used. Nothing is required.
+struct DeviceOptions {
+    std::int64_t memory_bytes =
+        0;           ///< of the device that may be in use at once; 0: 9/10 of what is free
+    int streams = 2; ///< batches that are on their way at once, each by a thread of the host
+    std::int64_t batches = 0;       ///< at least so many; 0: as memory needs
+    bool time_stages = false;       ///< each launch is waited for: slower as a whole
+    DeviceReport* report = nullptr; ///< gets what the run took
+    std::int64_t vanish_after = -1; ///< of the host executor: launches until its device is gone
 };
 
 /// Why the device does not do what is asked, though the CPU does: CoverageMode::Mask, FitMode::Last.
@@ -46,8 +47,7 @@ struct DeviceReport {
                                                             const VoxelizePlan& plan,
                                                             const DeviceOptions& device,
                                                             Progress& progress,
-                                                            LevelBuilder* levels = nullptr,
-                                                            DeviceReport* report = nullptr);
+                                                            LevelBuilder* levels = nullptr);
 
 /// The same pipeline on the threads of the host: what machines without a GPU test. Slower than
 /// voxelize().
@@ -57,7 +57,6 @@ voxelize_on_host_executor(const Geometry& geometry,
                           const VoxelizePlan& plan,
                           const DeviceOptions& device,
                           Progress& progress,
-                          LevelBuilder* levels = nullptr,
-                          DeviceReport* report = nullptr);
+                          LevelBuilder* levels = nullptr);
 
 } // namespace heddle

@@ -16,24 +16,6 @@ VoxelizeOptions options_of(std::int64_t voxels) {
     return options;
 }
 
-/// The swatch with flyaways: hairs and loops.
-Geometry hairy_swatch() {
-    Geometry g = swatch();
-    YarnType& y = g.yarns[0];
-    y.flyaways = true;
-    y.migration = true;
-    y.migration_min = 0.5f;
-    y.migration_frequency = 1.5f;
-    y.hair_density = 3.0f;
-    y.hair_ze = {0.5f, 0.2f};
-    y.hair_r0 = {0.3f, 0.1f};
-    y.hair_re = {0.4f, 0.1f};
-    y.hair_pe = {0.5f, 0.2f};
-    y.loop_density = 2.0f;
-    y.loop_r1 = {0.8f, 0.2f};
-    return g;
-}
-
 /// Expects that levels by the host executor hold what those of the CPU hold, level by level.
 void expect_parity(const Geometry& geometry,
                    const VoxelizeOptions& options,

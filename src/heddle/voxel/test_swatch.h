@@ -48,6 +48,24 @@ inline const Geometry& swatch() {
     return geometry;
 }
 
+/// The swatch with flyaways: hairs and loops.
+inline Geometry hairy_swatch() {
+    Geometry g = swatch();
+    YarnType& y = g.yarns[0];
+    y.flyaways = true;
+    y.migration = true;
+    y.migration_min = 0.5f;
+    y.migration_frequency = 1.5f;
+    y.hair_density = 3.0f;
+    y.hair_ze = {0.5f, 0.2f};
+    y.hair_r0 = {0.3f, 0.1f};
+    y.hair_re = {0.4f, 0.1f};
+    y.hair_pe = {0.5f, 0.2f};
+    y.loop_density = 2.0f;
+    y.loop_r1 = {0.8f, 0.2f};
+    return g;
+}
+
 using Key = std::tuple<int, int, int>;
 /// All that a voxel stores.
 struct Content {
