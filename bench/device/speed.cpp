@@ -3,7 +3,7 @@
 // host executor, to see that the program runs.
 
 #include "cases.h"
-#include "copy_bandwidth.h"
+#include "device_peaks.h"
 
 #include <heddle/base/error.h>
 #include <heddle/base/parallel.h>
@@ -35,6 +35,19 @@ constexpr Row kRows[] = {
     {"hanging", 163e6, 4096, 36.1, 48.6},
 };
 constexpr int kFibers = 150;
+
+/// The other way to read the paper: its nodes are of yarns, and each has 150 fibers.
+constexpr Row kOtherReading{"flat", 150 * 8.36e6, 1024, 3.45, 8.8};
+
+/// Operations that a sample takes at least, counted in expand_op.h: the fiber's point and its chord.
+constexpr double kFlopsPerSample = 80.0;
+constexpr double kSamplesPerNode = 60.0;
+
+/// What the device could do at best.
+struct Peaks {
+    double gigabytes = copy_bandwidth();
+    double gigaflops = peak_gigaflops();
+};
 
 double seconds_of(const auto& body) {
     const auto start = std::chrono::steady_clock::now();
@@ -132,7 +145,7 @@ double write_seconds(const VoxelLevels& levels, double& gigabytes) {
     return seconds;
 }
 
-void print_row(const Row& row, bool with_cpu, double bandwidth) {
+void print_row(const Row& row, bool with_cpu, const Peaks& peaks) {
     const Geometry g = cloth(row.shape, row.nodes, kFibers);
     VoxelizeOptions options;
     options.voxels = row.voxels;
@@ -163,8 +176,12 @@ void print_row(const Row& row, bool with_cpu, double bandwidth) {
         std::printf(" %s %.1f ms,", stage.c_str(), 1e3 * seconds);
     }
     const double bytes = gigabytes * 1e9 + static_cast<double>(points) * sizeof(Vec3f);
-    std::printf(" compulsory bytes %.1f ms; %lld batches, %.2f GB |\n",
-                bandwidth > 0.0 ? 1e-6 * bytes / bandwidth : 0.0,
+    const double flops = static_cast<double>(points) * kFibers * kSamplesPerNode * kFlopsPerSample;
+    const auto bound_ms = [](double work, double giga) {
+        return giga > 0.0 ? 1e-6 * work / giga : 0.0;
+    };
+    std::printf(" bounds: bytes %.1f ms, arithmetic %.1f ms; %lld batches, %.2f GB |\n",
+                bound_ms(bytes, peaks.gigabytes), bound_ms(flops, peaks.gigaflops),
                 static_cast<long long>(levels.report.batches),
                 1e-9 * static_cast<double>(levels.report.peak_bytes));
     std::fflush(stdout);
@@ -191,27 +208,29 @@ void print_mesh(int voxels, double published_ms, double bandwidth) {
 
 int main_of(int rows) {
     const gpu::Device device = gpu::find_device();
-    const double bandwidth = copy_bandwidth();
+    const Peaks peaks;
     std::printf("device: %s\nthreads of the host: %d\n",
                 device.name.empty() ? device.why.c_str() : device.name.c_str(), thread_count());
-    std::printf("copy bandwidth of the device: %.0f GB/s\n\n", bandwidth);
+    std::printf("copies in the device's memory: %.0f GB/s; arithmetic: %.0f Gop/s\n\n",
+                peaks.gigabytes, peaks.gigaflops);
     std::printf(
         "| cloth, nodes of fibers, voxels along the longest axis | voxels | level 0, s | "
         "paper / this | with levels, s | paper / this | read, write, s | paper / the whole | "
         "all cores of the CPU, level 0, s | launches |\n"
         "|---|---|---|---|---|---|---|---|---|---|\n");
     if (device.name.empty()) {
-        print_row({"flat", 1e5, 128, 0.0, 0.0}, true, 0.0);
+        print_row({"flat", 1e5, 128, 0.0, 0.0}, true, peaks);
     } else {
-        for (int r = 0; r < rows; ++r) print_row(kRows[r], r % 3 == 0 && r < 6, bandwidth);
+        for (int r = 0; r < rows; ++r) print_row(kRows[r], r % 3 == 0 && r < 6, peaks);
+        if (rows == 9) print_row(kOtherReading, false, peaks);
     }
     std::printf("\n| mesh, 1 subvoxel | voxels | bin and gather, ms | all launches, ms | "
                 "cuda_voxelizer, published, scaled, ms |\n|---|---|---|---|---|\n");
     if (device.name.empty()) {
         print_mesh(128, 0.0, 0.0);
     } else {
-        print_mesh(1024, 8.6, bandwidth);
-        print_mesh(2048, 44.6, bandwidth);
+        print_mesh(1024, 8.6, peaks.gigabytes);
+        print_mesh(2048, 44.6, peaks.gigabytes);
     }
     return 0;
 }

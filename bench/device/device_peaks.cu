@@ -1,4 +1,4 @@
-#include "copy_bandwidth.h"
+#include "device_peaks.h"
 
 #include <heddle/base/platform.h>
 #include <heddle/gpu/cuda_executor.cuh>
@@ -31,6 +31,19 @@ double copy_bandwidth() {
     exec.wait();
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     return 10.0 * 2.0 * 16.0 * static_cast<double>(kItems) / spent.count() * 1e-9;
+}
+
+double peak_gigaflops() {
+    if (gpu::find_device().name.empty()) return 0.0;
+    int multiprocessors = 0;
+    int kilohertz = 0;
+    if (cudaDeviceGetAttribute(&multiprocessors, cudaDevAttrMultiProcessorCount, 0) !=
+            cudaSuccess ||
+        cudaDeviceGetAttribute(&kilohertz, cudaDevAttrClockRate, 0) != cudaSuccess) {
+        return 0.0;
+    }
+    constexpr double kLanes = 128.0; // of a multiprocessor, of 8.0 and later; 7.5 has half
+    return kLanes * multiprocessors * kilohertz * 1e-6;
 }
 
 } // namespace heddle::check
