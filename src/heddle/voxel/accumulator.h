@@ -46,7 +46,7 @@ public:
         return voxel_at(static_cast<std::uint32_t>((x * kBlockVoxels + y) * kBlockVoxels + z));
     }
     /// Voxels that take what lanes without a hit write: numbers kVoxels and on.
-    static constexpr int kSpareVoxels = 8;
+    static constexpr int kSpareVoxels = 16;
 
     /// The same by its number, (x 32 + y) 32 + z.
     HEDDLE_HOST_INLINE VoxelSums& voxel_at(std::uint32_t cell) {

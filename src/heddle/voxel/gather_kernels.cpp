@@ -24,10 +24,23 @@ bool use_avx2() {
 #endif
 }
 
+bool use_avx512() {
+#if HEDDLE_WITH_AVX2
+    static const bool has =
+        __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512bw") != 0 &&
+        __builtin_cpu_supports("avx512dq") != 0 && __builtin_cpu_supports("avx512vl") != 0 &&
+        __builtin_cpu_supports("bmi2") != 0;
+    return has;
+#else
+    return false;
+#endif
+}
+
 } // namespace
 
 void gather_thin(const ChordArrays& chords, const GatherTarget& target) {
     if constexpr (HEDDLE_WITH_AVX2) {
+        if (use_avx512()) return avx512::gather(chords, target);
         if (use_avx2()) return avx2::gather(chords, target);
     }
     portable::gather(chords, target);

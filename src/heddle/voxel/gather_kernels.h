@@ -10,8 +10,8 @@
 
 namespace heddle {
 
-/// Straight pieces of fibers as arrays, for eight at once. Arrays hold whole eights: where `count` is
-/// not one, the last lanes have length 0.
+/// Straight pieces of fibers as arrays, for eight or sixteen at once. Arrays hold whole sixteens:
+/// what lies behind `count` is read, and counts for nothing.
 struct ChordArrays {
     const float* start[3]; ///< units, relative to the corner of the voxel `anchor`
     const float* dir[3];   ///< unit
@@ -25,8 +25,8 @@ struct ChordArrays {
     int count = 0;
 };
 
-/// Adds thin chords to the voxels that they meet: eight chords at once, column by column along each.
-/// The same bits with and without AVX2, which is used where the machine has it.
+/// Adds thin chords to the voxels that they meet: eight or sixteen at once, column by column along each.
+/// The same bits with AVX-512, AVX2 and neither; the first that the machine has is used.
 void gather_thin(const ChordArrays& chords, const GatherTarget& target);
 
 /// Fills a tile with the fibers of `parts`, whose number is tile.fibers, at tile.chords + 3 samples.
@@ -36,7 +36,7 @@ void expand_fibers(FiberTile& tile,
                    const PlySection& section,
                    const FiberTable& table);
 
-/// What the two above choose from; avx2 is there where HEDDLE_WITH_AVX2 is 1.
+/// What the two above choose from; avx2 and avx512 are there where HEDDLE_WITH_AVX2 is 1.
 namespace portable {
 void gather(const ChordArrays& chords, const GatherTarget& target);
 void expand(FiberTile& tile,
@@ -51,5 +51,8 @@ void expand(FiberTile& tile,
             const PlySection& section,
             const FiberTable& table);
 } // namespace avx2
+namespace avx512 {
+void gather(const ChordArrays& chords, const GatherTarget& target);
+} // namespace avx512
 
 } // namespace heddle

@@ -119,8 +119,8 @@ inline Int set_lanes(std::uint32_t mask) {
     return _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(kSetLanes[mask])));
 }
 
-/// r[l] = lane l of all eight.
-inline void transpose(Real (&r)[kLanes]) {
+/// out[l][i] = lane l of r[i].
+inline void store_transposed(const Real (&r)[8], float (&out)[kLanes][8]) {
     __m256 t[8];
     __m256 s[8];
     for (int i = 0; i < 4; ++i) {
@@ -134,8 +134,8 @@ inline void transpose(Real (&r)[kLanes]) {
         s[4 * i + 3] = _mm256_shuffle_ps(t[4 * i + 1], t[4 * i + 3], 0xee);
     }
     for (int i = 0; i < 4; ++i) {
-        r[i] = _mm256_permute2f128_ps(s[i], s[i + 4], 0x20);
-        r[i + 4] = _mm256_permute2f128_ps(s[i], s[i + 4], 0x31);
+        _mm256_storeu_ps(out[i], _mm256_permute2f128_ps(s[i], s[i + 4], 0x20));
+        _mm256_storeu_ps(out[i + 4], _mm256_permute2f128_ps(s[i], s[i + 4], 0x31));
     }
 }
 

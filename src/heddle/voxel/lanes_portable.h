@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <utility>
 
 namespace heddle::portable {
 
@@ -165,9 +164,9 @@ inline Int set_lanes(std::uint32_t mask) {
     return detail::each<Int>(
         [&](int l) { return static_cast<std::int32_t>(kSetLanes[mask] >> (8 * l) & 0xff); });
 }
-inline void transpose(Real (&r)[kLanes]) {
-    for (int i = 0; i < kLanes; ++i) {
-        for (int j = 0; j < i; ++j) std::swap(r[i].v[j], r[j].v[i]);
+inline void store_transposed(const Real (&r)[8], float (&out)[kLanes][8]) {
+    for (int l = 0; l < kLanes; ++l) {
+        for (int i = 0; i < 8; ++i) out[l][i] = r[i].v[l];
     }
 }
 inline void add_scaled(void* sums, const float* row, float scale) {

@@ -1,5 +1,5 @@
 // No include guard: included once for each instruction set, HEDDLE_ISA.
-// The columns that eight thin chords meet, along one axis.
+// The columns that thin chords meet, one a lane, along one axis.
 
 namespace heddle::HEDDLE_ISA {
 
@@ -7,8 +7,8 @@ namespace heddle::HEDDLE_ISA {
 struct Candidates {
     static constexpr int kMost = 256;
     int count = 0;
-    alignas(32) std::int32_t lane[kMost + kLanes];
-    alignas(32) float i[kMost + kLanes], j[kMost + kLanes];
+    alignas(64) std::int32_t lane[kMost + kLanes];
+    alignas(64) float i[kMost + kLanes], j[kMost + kLanes];
 
     void add(std::uint32_t mask, Real column_i, Real column_j) {
         const Int order = set_lanes(mask);
@@ -26,8 +26,8 @@ struct Candidates {
 /// @param run     first subvoxel's bit | length << 9
 template <int kDepth>
 inline void set_columns(const LaneBlock& b, Mask hits, Int packed, Int run) {
-    alignas(32) std::int32_t cells[kLanes];
-    alignas(32) std::int32_t runs[kLanes];
+    alignas(64) std::int32_t cells[kLanes];
+    alignas(64) std::int32_t runs[kLanes];
     packed = select(hits, packed, Int::iota() + Int(BlockSums::kVoxels));
     const std::uint32_t mask = hits.bits();
     const bool few = std::popcount(mask) <= kLanes / 2;
@@ -54,8 +54,8 @@ inline void set_columns(const LaneBlock& b, Mask hits, Int packed, Int run) {
 
 /// Names a direction in voxels that chords meet beside their centrelines.
 inline void graze(const LaneBlock& b, const LaneChords& k, std::uint32_t hits, Int cell, Int lane) {
-    alignas(32) std::int32_t cells[kLanes];
-    alignas(32) std::int32_t lanes[kLanes];
+    alignas(64) std::int32_t cells[kLanes];
+    alignas(64) std::int32_t lanes[kLanes];
     cell.store(cells);
     lane.store(lanes);
     for (; hits != 0; hits &= hits - 1) {
@@ -150,7 +150,9 @@ void gather(const ChordArrays& chords, const GatherTarget& target) {
         k.after = Real::load(chords.after + at);
         k.radius = Real::load(chords.radius + at);
         k.color = chords.color + at;
-        k.active = meets_block<Lanes>(k, anchor, target.units, target.size);
+        // the arrays hold whole sixteens, the last of them anything
+        k.active = meets_block<Lanes>(k, anchor, target.units, target.size) &
+                   (Int(chords.count - at) > Int::iota());
         if (k.active.bits() == 0) continue;
         set_moments(k, {Real::load(chords.bend[0] + at), Real::load(chords.bend[1] + at),
                         Real::load(chords.bend[2] + at)});

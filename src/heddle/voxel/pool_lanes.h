@@ -1,16 +1,15 @@
 // No include guard: included once for each instruction set, HEDDLE_ISA.
-// Directions of eight thin chords into the voxels that their centrelines pass.
+// Directions of as many thin chords as there are lanes into the voxels that their centrelines pass.
 
 namespace heddle::HEDDLE_ISA {
 
-/// Eight chords, as bodies over lanes have them; and what only writing their sums needs.
+/// A chord a lane, as bodies over lanes have them; and what only writing their sums needs.
 struct LaneChords : ChordLanes<Lanes> {
-    alignas(
-        32) float moment[kLanes][kLanes]; ///< per chord: xx yy zz xy xz yz of its direction, 1, 0
+    alignas(32) float moment[kLanes][8]; ///< per chord: xx yy zz xy xz yz of its direction, 1, 0
     const std::uint32_t* color;
 };
 
-/// The block, as eight lanes see it.
+/// The block, as the lanes see it.
 struct LaneBlock : BlockWords<Lanes> {
     const GatherTarget& target;
     bool plain; ///< direction sums only: no maps, no FitMode::Last
@@ -35,10 +34,9 @@ pool_lane(const LaneBlock& b, const LaneChords& k, int lane, std::uint32_t cell,
 }
 
 inline void set_moments(LaneChords& k, const Real (&bend)[3]) {
-    Real rows[kLanes];
+    Real rows[8];
     chord_moments<Lanes>(k, bend, rows);
-    transpose(rows);
-    for (int l = 0; l < kLanes; ++l) rows[l].store(k.moment[l]);
+    store_transposed(rows, k.moment);
 }
 
 /// Pools every chord's direction, by the directed area 2 r length, in each voxel that its centreline
