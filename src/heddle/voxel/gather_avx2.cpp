@@ -1,4 +1,4 @@
-// The only file that is compiled for AVX2: gather_kernels.cpp calls it where the machine has that.
+// The one file that is compiled for AVX2: gather_kernels.cpp calls it where the machine has that.
 #include <heddle/voxel/gather_kernels.h>
 
 #include <heddle/voxel/lanes_avx2.h>
