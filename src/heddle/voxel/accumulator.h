@@ -49,14 +49,29 @@ public:
     static constexpr int kSpareVoxels = 16;
 
     /// The same by its number, (x 32 + y) 32 + z.
-    HEDDLE_HOST_INLINE VoxelSums& voxel_at(std::uint32_t cell) {
-        std::uint16_t& slot = table_[cell];
-        if (slot == kNone) {
-            slot = static_cast<std::uint16_t>(count_++);
-            voxels_[slot] = VoxelSums{};
+    HEDDLE_HOST_INLINE VoxelSums& voxel_at(std::uint32_t cell) { return VoxelTable(*this)[cell]; }
+
+    /// voxel_at() for loops that set many bits: a copy in the loop keeps its two addresses in registers,
+    /// which the vectors, reached through a reference, do not. Until the next reset().
+    class VoxelTable {
+    public:
+        HEDDLE_HOST_INLINE explicit VoxelTable(BlockSums& block)
+            : slots_(block.table_.data()), voxels_(block.voxels_.data()), count_(&block.count_) {}
+        HEDDLE_HOST_INLINE VoxelSums& operator[](std::uint32_t cell) const {
+            std::uint16_t slot = slots_[cell];
+            if (slot == kNone) [[unlikely]] {
+                slot = static_cast<std::uint16_t>((*count_)++);
+                slots_[cell] = slot;
+                voxels_[slot] = VoxelSums{};
+            }
+            return voxels_[slot];
         }
-        return voxels_[slot];
-    }
+
+    private:
+        std::uint16_t* slots_;
+        VoxelSums* voxels_;
+        int* count_;
+    };
 
     /// The sums of `material` in `voxel`, made empty at the first call.
     HEDDLE_HOST_INLINE LobeSums& lobe(VoxelSums& voxel, std::uint32_t material) {

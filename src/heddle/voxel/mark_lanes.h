@@ -25,7 +25,7 @@ struct Candidates {
 /// @param packed  cell | bit << 16
 /// @param run     first subvoxel's bit | length << 9
 template <int kDepth>
-inline void set_columns(const LaneBlock& b, Mask hits, Int packed, Int run) {
+inline void set_columns(BlockSums::VoxelTable voxels, Mask hits, Int packed, Int run) {
     alignas(64) std::int32_t cells[kLanes];
     alignas(64) std::int32_t runs[kLanes];
     packed = select(hits, packed, Int::iota() + Int(BlockSums::kVoxels));
@@ -38,9 +38,9 @@ inline void set_columns(const LaneBlock& b, Mask hits, Int packed, Int run) {
     }
     packed.store(cells);
     run.store(runs);
-    const auto set = [&](int l) {
+    const auto set = [&, voxels](int l) {
         const auto p = static_cast<std::uint32_t>(cells[l]);
-        VoxelSums& voxel = b.voxel(p & 0xffff);
+        VoxelSums& voxel = voxels[p & 0xffff];
         voxel.column[kDepth] |= std::uint64_t{1} << (p >> 16);
         if constexpr (kDepth == 2) {
             const auto r = static_cast<std::uint32_t>(runs[l]);
@@ -71,6 +71,7 @@ inline void mark_candidates(const LaneBlock& b,
                             const ChordView<Lanes>& v,
                             const Candidates& list) {
     const int shift = b.target.shift;
+    const BlockSums::VoxelTable voxels(b.target.block);
     for (int at = 0; at < list.count; at += kLanes) {
         const Int lane = Int::load(list.lane + at);
         const Real i = Real::load(list.i + at);
@@ -89,7 +90,7 @@ inline void mark_candidates(const LaneBlock& b,
                 const Int cell = LaneBlock::cell(word);
                 Int run(0);
                 if constexpr (kDepth == 2) run = place.run(shift);
-                set_columns<kDepth>(b, here, cell | bit, run);
+                set_columns<kDepth>(voxels, here, cell | bit, run);
                 const Int passed[4] = {pick(k.passed[0], lane), pick(k.passed[1], lane),
                                        pick(k.passed[2], lane), pick(k.passed[3], lane)};
                 const Mask grazed = without(here, is_passed<Lanes>(passed, word));
