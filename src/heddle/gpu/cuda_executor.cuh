@@ -1,7 +1,7 @@
 #pragma once
 
 #include <heddle/base/error.h>
-#include <heddle/gpu/array.h>
+#include <heddle/gpu/executor.h>
 #include <heddle/gpu/staging.cuh>
 
 #include <cub/device/device_scan.cuh>
@@ -21,28 +21,18 @@ __global__ void for_each_kernel(const __grid_constant__ Op op, std::size_t n) {
 
 /// Runs on the current CUDA device, in a stream of its own: calls of several executors overlap. See
 /// HostExecutor, which has the same calls. Memory comes from the device's pool, in stream order.
-class CudaExecutor final : public Allocator {
+class CudaExecutor final : public Executor<CudaExecutor> {
 public:
     /// @throws Error  Device: no stream
-    explicit CudaExecutor(Budget& budget) : Allocator(budget) {
+    explicit CudaExecutor(Budget& budget) : Executor(budget) {
         check(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking), "a stream");
     }
     ~CudaExecutor() override { cudaStreamDestroy(stream_); }
 
     template <typename T>
-    [[nodiscard]] Array<T> make(std::size_t n) {
-        return Array<T>(*this, n);
-    }
-    template <typename T>
     [[nodiscard]] Array<T> make_zero(std::size_t n) {
         Array<T> out(*this, n);
         if (n > 0) check(cudaMemsetAsync(out.data(), 0, n * sizeof(T), stream_), "clearing");
-        return out;
-    }
-    template <typename T>
-    [[nodiscard]] Array<T> make_from(std::span<const T> host) {
-        Array<T> out(*this, host.size());
-        upload(out.data(), host);
         return out;
     }
     /// `from` may be changed when it returns.
@@ -67,12 +57,6 @@ public:
                                       reinterpret_cast<const std::byte*>(from), bytes, stream_),
               "download");
         wait();
-    }
-    template <typename T>
-    [[nodiscard]] T read(const T* at) {
-        T out;
-        download(std::span<T>(&out, 1), at);
-        return out;
     }
     void wait() { check(cudaStreamSynchronize(stream_), "waiting"); }
 
@@ -120,6 +104,7 @@ private:
     }
     void check(cudaError_t status, const char* what) const {
         if (status == cudaSuccess) return;
+        cudaGetLastError(); // forgets it: a batch that is tried again in halves must not meet it
         const bool memory = status == cudaErrorMemoryAllocation;
         throw Error(memory ? ErrorCode::OutOfMemory : ErrorCode::Device,
                     str(stage(), ": ", what, ": ", cudaGetErrorString(status), ", with ",

@@ -33,7 +33,6 @@ Device find_device() {
     }
     out.name = properties.name;
     out.free_bytes = static_cast<std::int64_t>(free_bytes);
-    out.total_bytes = static_cast<std::int64_t>(total_bytes);
     return out;
 }
 

@@ -7,10 +7,9 @@ namespace heddle::gpu {
 
 /// The CUDA device that executors use.
 struct Device {
-    std::string name;             ///< empty: there is none
-    std::string why;              ///< if there is none: the reason, in words
-    std::int64_t free_bytes = 0;  ///< of its memory, now
-    std::int64_t total_bytes = 0; ///< of its memory
+    std::string name;            ///< empty: there is none
+    std::string why;             ///< if there is none: the reason, in words
+    std::int64_t free_bytes = 0; ///< of its memory, now
 };
 
 /// Looks for a device; makes its memory pool keep what it has taken. Never throws: no device, no driver

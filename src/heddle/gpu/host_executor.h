@@ -2,7 +2,7 @@
 
 #include <heddle/base/error.h>
 #include <heddle/base/parallel.h>
-#include <heddle/gpu/array.h>
+#include <heddle/gpu/executor.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -18,28 +18,17 @@ namespace heddle::gpu {
 /// the same bits. It is how a machine without a GPU tests all but the launches.
 ///
 /// Calls return at once or when done: results are there after wait(), read() or download().
-class HostExecutor final : public Allocator {
+class HostExecutor final : public Executor<HostExecutor> {
 public:
     /// @param vanish_after  launches until the device is gone, as a test has it; < 0: never
     explicit HostExecutor(Budget& budget, std::int64_t vanish_after = -1)
-        : Allocator(budget), launches_left_(vanish_after) {}
+        : Executor(budget), launches_left_(vanish_after) {}
 
-    /// n objects, not initialized.
-    template <typename T>
-    [[nodiscard]] Array<T> make(std::size_t n) {
-        return Array<T>(*this, n);
-    }
     /// n objects of all bits 0.
     template <typename T>
     [[nodiscard]] Array<T> make_zero(std::size_t n) {
         Array<T> out(*this, n);
         if (n > 0) std::memset(static_cast<void*>(out.data()), 0, n * sizeof(T));
-        return out;
-    }
-    template <typename T>
-    [[nodiscard]] Array<T> make_from(std::span<const T> host) {
-        Array<T> out(*this, host.size());
-        upload(out.data(), host);
         return out;
     }
     template <typename T>
@@ -49,11 +38,6 @@ public:
     template <typename T>
     void download(std::span<T> to, const T* from) {
         if (!to.empty()) std::memcpy(static_cast<void*>(to.data()), from, to.size_bytes());
-    }
-    /// One object; waits for it.
-    template <typename T>
-    [[nodiscard]] T read(const T* at) {
-        return *at;
     }
     void wait() {}
 
