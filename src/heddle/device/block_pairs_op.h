@@ -27,6 +27,11 @@ constexpr std::size_t kPrimitiveKinds = 5;
     return number_of(PrimitiveKind::Triangle) + static_cast<std::size_t>(kind);
 }
 
+/// What a set's pieces are.
+[[nodiscard]] HEDDLE_HD inline PrimitiveKind kind_of(const CurveSetView& set) {
+    return set.length != nullptr ? PrimitiveKind::Yarn : PrimitiveKind::Plain;
+}
+
 /// A primitive and a block of the batch that it touches.
 struct BlockPair {
     std::uint64_t primitive = 0; ///< piece or triangle
@@ -75,9 +80,7 @@ struct WalkSpanOp {
     HEDDLE_HD void operator()(std::size_t span) const {
         const FiberPiece whole = fibers.whole_span(span);
         const CurveSetView& set = fibers.sets[whole.set];
-        const PrimitiveKind kind =
-            set.length != nullptr ? PrimitiveKind::Yarn : PrimitiveKind::Plain;
-        Visit visit{*this, number_of(kind), 0, set.material};
+        Visit visit{*this, number_of(kind_of(set)), 0, set.material};
         for (std::uint32_t part = 0; part < whole.parts; ++part) {
             visit.id = std::uint64_t{span} << 16 | part;
             for_each_block(fibers, part_of(whole, part), range, visit);

@@ -13,11 +13,9 @@
 
 #include <atomic>
 #include <chrono>
-#include <exception>
 #include <functional>
+#include <future>
 #include <memory>
-#include <mutex>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -26,31 +24,8 @@ namespace heddle {
 /// @throws Error  Unsupported: why_not_on_device(); InvalidArgument: options that cannot be
 void check_device_options(const VoxelizeOptions& options, const DeviceOptions& device);
 
-/// Batches are done by several threads of the host: the first error of any stops all.
-class FirstError {
-public:
-    /// Calls body(), unless there is an error already.
-    template <typename Body>
-    void guard(const Body& body) {
-        if (failed()) return;
-        try {
-            body();
-        } catch (...) {
-            const std::scoped_lock lock(mutex_);
-            if (!first_) first_ = std::current_exception();
-            failed_ = true;
-        }
-    }
-    [[nodiscard]] bool failed() const { return failed_; }
-    void rethrow() const {
-        if (first_) std::rethrow_exception(first_);
-    }
-
-private:
-    std::mutex mutex_;
-    std::exception_ptr first_;
-    std::atomic<bool> failed_{false};
-};
+/// Which kinds of primitives there are.
+[[nodiscard]] std::array<bool, kPrimitiveKinds> kinds_of(const VoxelizeContext& context);
 
 /// One voxelization by executors of one kind: geometry goes up once, then batches of blocks are gathered,
 /// fitted and sent back, each by whichever stream is free.
@@ -128,7 +103,6 @@ void DeviceRun<Exec>::upload() {
     scene_.tables = tables_.view();
     scene_.range = context_.range;
     scene_.with_maps = context_.fit.fields.map_sums();
-    scene_.fit.subvoxels = context_.fit.subvoxels;
     scene_.fit.max_lobes = context_.fit.max_lobes;
     for (std::size_t m = 0; m < context_.fit.normals.size(); ++m) {
         if (context_.fit.normals[m]) scene_.fit.normals[m / 64] |= std::uint64_t{1} << (m % 64);
@@ -142,13 +116,15 @@ void DeviceRun<Exec>::count() {
     const std::size_t blocks = context_.range.count();
     std::array<gpu::Array<std::uint32_t>, kPrimitiveKinds> counts;
     CountPairs to{};
+    const std::array<bool, kPrimitiveKinds> there = kinds_of(context_);
     for (std::size_t k = 0; k < kPrimitiveKinds; ++k) {
+        if (!there[k]) continue;
         counts[k] = exec.template make_zero<std::uint32_t>(blocks);
         to.counts[k] = counts[k].data();
     }
     walk_primitives(exec, scene_, to);
     for (std::size_t k = 0; k < kPrimitiveKinds; ++k) {
-        counts_[k].resize(blocks);
+        counts_[k].resize(counts[k].size());
         exec.download(std::span(counts_[k]), counts[k].data());
     }
 }
@@ -177,7 +153,8 @@ BlockBatch DeviceRun<Exec>::batch_of(BatchRange range) const {
         block.size = end - block.lo;
         batch.numbers.push_back(number);
         for (std::size_t k = 0; k < kPrimitiveKinds; ++k) {
-            batch.first_pair[k].push_back(batch.first_pair[k].back() + counts_[k][number]);
+            const std::uint32_t pairs = counts_[k].empty() ? 0 : counts_[k][number];
+            batch.first_pair[k].push_back(batch.first_pair[k].back() + pairs);
         }
     }
     return batch;
@@ -188,24 +165,28 @@ void DeviceRun<Exec>::work(std::size_t streams,
                            const std::vector<BatchRange>& batches,
                            Progress& progress) {
     std::atomic<std::size_t> next{0};
-    FirstError error;
-    const auto lane = [&] {
-        error.guard([&] {
-            Lane mine;
-            mine.exec = make_exec();
-            mine.exec->set_stage("bin");
-            mine.slot_of_block = mine.exec->template make<std::uint32_t>(context_.range.count());
-            for (std::size_t b = next++; b < batches.size() && !error.failed(); b = next++) {
-                run_batch(mine, batches[b], progress);
-            }
-        });
+    const auto run_lane = [&] {
+        Lane lane;
+        lane.exec = make_exec();
+        lane.exec->set_stage("bin");
+        lane.slot_of_block = lane.exec->template make<std::uint32_t>(context_.range.count());
+        for (std::size_t b = next++; b < batches.size(); b = next++) {
+            run_batch(lane, batches[b], progress);
+        }
     };
-    {
-        std::vector<std::jthread> others;
-        for (std::size_t s = 1; s < streams; ++s) others.emplace_back(lane);
-        lane();
+    std::vector<std::future<void>> lanes;
+    for (std::size_t s = 0; s < streams; ++s) {
+        lanes.push_back(std::async(std::launch::async, [&] {
+            try {
+                run_lane();
+            } catch (...) {
+                next = batches.size(); // the others stop too
+                throw;
+            }
+        }));
     }
-    error.rethrow();
+    for (std::future<void>& lane : lanes) lane.wait(); // what they use outlives them
+    for (std::future<void>& lane : lanes) lane.get();
 }
 
 /// A batch that memory does not hold is done in halves.

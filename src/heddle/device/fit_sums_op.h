@@ -13,7 +13,6 @@ namespace heddle {
 
 /// How a batch's sums become voxels of level 0.
 struct FitSettings {
-    int subvoxels = 8;
     int max_lobes = 3;
     std::uint64_t normals[4]{}; ///< bit per material: its lobes are of normals
 };

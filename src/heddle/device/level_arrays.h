@@ -29,9 +29,4 @@ struct LevelArrays {
     [[nodiscard]] std::size_t words() const { return std::size_t{1} << (2 * level); }
 };
 
-/// Shift of a level's key to the number of its block.
-[[nodiscard]] constexpr int block_shift(int level) {
-    return 15 - 3 * level;
-}
-
 } // namespace heddle

@@ -12,6 +12,19 @@ std::string why_not_on_device(const VoxelizeOptions& options) {
     return {};
 }
 
+std::array<bool, kPrimitiveKinds> kinds_of(const VoxelizeContext& context) {
+    std::array<bool, kPrimitiveKinds> there{};
+    const FiberView fibers = context.fibers.view();
+    for (std::size_t s = 0; s < fibers.set_count; ++s) {
+        there[number_of(kind_of(fibers.sets[s]))] = true;
+    }
+    const SurfaceView surfaces = context.surfaces.view();
+    for (std::size_t m = 0; m < surfaces.mesh_count; ++m) {
+        there[number_of(surfaces.meshes[m].kind)] = true;
+    }
+    return there;
+}
+
 void check_device_options(const VoxelizeOptions& options, const DeviceOptions& device) {
     const std::string cannot = why_not_on_device(options);
     if (!cannot.empty()) {
