@@ -28,6 +28,16 @@ std::string first_line(std::string log) {
     return log;
 }
 
+/// @param get  glGetShaderInfoLog or glGetProgramInfoLog
+template <typename Get>
+std::string log_of(GLuint id, const Get& get) {
+    std::string log(1024, '\0');
+    GLsizei length = 0;
+    get(id, 1024, &length, log.data());
+    log.resize(static_cast<std::size_t>(length));
+    return log;
+}
+
 [[noreturn]] void refuse(const char* name, const char* what, const std::string& log) {
     throw Error(ErrorCode::Internal,
                 str("opengl: the driver does not ", what, " '", name, "': ", first_line(log)),
@@ -46,10 +56,7 @@ GLuint compile(GLenum kind, const char* name, std::string_view shared, std::stri
     GLint ok = GL_FALSE;
     glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
     if (ok == GL_TRUE) return shader;
-    std::string log(1024, '\0');
-    GLsizei length = 0;
-    glGetShaderInfoLog(shader, 1024, &length, log.data());
-    log.resize(static_cast<std::size_t>(length));
+    const std::string log = log_of(shader, glGetShaderInfoLog);
     glDeleteShader(shader);
     refuse(name, "compile", log);
 }
@@ -65,10 +72,7 @@ GLuint link(const char* name, std::initializer_list<GLuint> shaders) {
     GLint ok = GL_FALSE;
     glGetProgramiv(program, GL_LINK_STATUS, &ok);
     if (ok == GL_TRUE) return program;
-    std::string log(1024, '\0');
-    GLsizei length = 0;
-    glGetProgramInfoLog(program, 1024, &length, log.data());
-    log.resize(static_cast<std::size_t>(length));
+    const std::string log = log_of(program, glGetProgramInfoLog);
     glDeleteProgram(program);
     refuse(name, "link", log);
 }
