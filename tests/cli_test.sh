@@ -216,6 +216,7 @@ if ! "$heddle" voxelize knit.bcc --voxels 40 --device cuda -o cuda.vdb >out.txt 
     fails 4 "use --device cpu" voxelize knit.bcc --voxels 40 --device cuda -o cuda.vdb
     cmp -s cpu.vdb cuda.vdb || wrong "a refused --device cuda touched the old output"
 fi
+fails 2 "--device-memory is of no use here" voxelize knit.bcc -o a.vdb --backend raster --device-memory 1G
 fails 2 "--device-memory is of no use" voxelize knit.bcc -o a.vdb --device cpu --device-memory 1G
 works voxelize knit.bcc --dry-run --json -o dry.vdb
 [ "$(json predicted_peak_memory_bytes)" -gt 0 ] || wrong "a dry run predicts no memory"

@@ -91,7 +91,8 @@ void run_voxelize(const Arguments& arguments, Report& report, ProgressBar& bar) 
         arguments.text("lod") != "naive") {
         options.footprints = 4; // transport through fibers needs them: docs/transport.md
     }
-    const DeviceChoice device = choose_device(arguments, options, report);
+    const DeviceChoice device =
+        uses_raster(arguments) ? DeviceChoice{} : choose_device(arguments, options, report);
     bar.check();
     bar.begin("plan", "files", 1);
     std::unique_ptr<LevelBuilder> levels_above = level_builder(arguments);

@@ -63,6 +63,9 @@ void prepare_backend(Geometry& geometry, const Arguments& arguments) {
     if (arguments.text("device") == "cuda") {
         throw UsageError("--device cuda is of no use here: it needs --backend sample");
     }
+    if (arguments.given("device-memory")) {
+        throw UsageError("--device-memory is of no use here: it needs --backend sample");
+    }
     if (arguments.text("fit") == "last") {
         throw UsageError("--fit last is of no use here: it needs --backend sample");
     }
