@@ -6,6 +6,7 @@
 #include <heddle/io/image/image.h>
 #include <heddle/raster/context.h>
 #include <heddle/raster/voxelize_slices.h>
+#include <heddle/viewer/orbit.h>
 #include <heddle/viewer/slice_view.h>
 
 #include <cmath>
@@ -23,26 +24,31 @@ Vec3d direction(const Arguments& arguments, const char* name) {
     return {v[0], v[1], v[2]};
 }
 
-viewer::ViewOptions view_options(const Arguments& arguments) {
-    const std::vector<double> size = arguments.numbers("size", 'x');
-    return {.width = static_cast<std::int32_t>(size[0]),
-            .height = static_cast<std::int32_t>(size[1]),
-            .sorted = !arguments.given("unsorted"),
+viewer::SliceLook look_of(const Arguments& arguments) {
+    const std::string blend = arguments.text("blend");
+    return {.light = direction(arguments, "light"),
+            .sorted = blend != "placed",
+            .weighted = blend == "weighted",
             .shadows = !arguments.given("no-shadows"),
             .occlusion = !arguments.given("no-occlusion"),
             .opacity = arguments.number("opacity"),
-            .seed = static_cast<std::uint64_t>(arguments.integer("seed"))};
+            .color = arguments.text("color") == "direction" ? viewer::SliceColor::Direction
+                                                            : viewer::SliceColor::Shaded};
 }
 
 Vec3d axis_of(const std::string& name) {
     return {name == "x" ? 1.0 : 0.0, name == "y" ? 1.0 : 0.0, name == "z" ? 1.0 : 0.0};
 }
 
-/// `v` turned about the unit vector `axis`.
-Vec3d turn_about(Vec3d v, Vec3d axis, double angle) {
-    const Vec3d along = axis * dot(axis, v);
-    const Vec3d across = v - along;
-    return along + across * std::cos(angle) + cross(axis, across) * std::sin(angle);
+viewer::Orbit orbit_of(const Arguments& arguments, const viewer::Ball& ball, double aspect) {
+    constexpr double kDegree = std::numbers::pi / 180.0;
+    viewer::Orbit orbit{.from = direction(arguments, "from"),
+                        .up = axis_of(arguments.text("up")),
+                        .view_angle = arguments.number("view-angle") * kDegree};
+    orbit.frame(ball, aspect);
+    if (arguments.given("target")) orbit.target = direction(arguments, "target");
+    orbit.zoom(arguments.number("zoom"));
+    return orbit;
 }
 
 std::string frame_path(const std::string& folder, std::int64_t frame) {
@@ -60,35 +66,36 @@ void make_folder(const std::string& folder) {
     }
 }
 
-void draw_frames(const viewer::SliceView& view,
+void draw_frames(viewer::SliceView& view,
                  const Arguments& arguments,
                  Report& report,
                  ProgressBar& bar) {
+    const std::vector<double> size = arguments.numbers("size", 'x');
+    const viewer::ViewTarget target(static_cast<std::int32_t>(size[0]),
+                                    static_cast<std::int32_t>(size[1]));
     const std::int64_t frames = arguments.integer("frames");
-    const Vec3d up = axis_of(arguments.text("up"));
-    viewer::ViewTimes sum;
+    viewer::Orbit orbit = orbit_of(arguments, view.ball(), size[0] / size[1]);
+    viewer::SliceTimes sum;
     bar.begin("draw", "frames", frames);
     for (std::int64_t f = 0; f < frames; ++f) {
         bar.check();
-        const double angle =
-            2.0 * std::numbers::pi * static_cast<double>(f) / static_cast<double>(frames);
-        viewer::ViewTimes times;
-        const viewer::ViewImage image =
-            view.draw({.from = turn_about(direction(arguments, "from"), up, angle),
-                       .up = up,
-                       .light = direction(arguments, "light"),
-                       .zoom = arguments.number("zoom")},
-                      &times);
+        viewer::SliceTimes times;
+        target.clear();
+        view.draw(target, orbit.camera(), look_of(arguments), &times);
+        const viewer::ViewImage image = target.image();
         write_output([&] {
             write_png(frame_path(arguments.text("output"), f), image.width, image.height, 3,
                       image.rgb);
         });
+        orbit.turn(-2.0 * std::numbers::pi / static_cast<double>(frames), 0.0);
         sum.sort += times.sort;
         sum.shadow += times.shadow;
         sum.draw += times.draw;
         bar.advance(1);
     }
     const auto each = 1.0 / static_cast<double>(frames);
+    report.count("slices", view.slice_count());
+    report.text("blend", view.is_split() ? "weighted" : arguments.text("blend"));
     report.seconds("sort a frame", sum.sort * each);
     report.seconds("shadow a frame", sum.shadow * each);
     report.seconds("draw a frame", sum.draw * each);
@@ -98,7 +105,9 @@ void run_view(const Arguments& arguments, Report& report, ProgressBar& bar) {
     bar.begin("read", "files", 1);
     Geometry geometry = load_geometry(arguments.text("FILE"), arguments);
     apply_model(geometry, arguments);
-    const viewer::ViewOptions options = view_options(arguments);
+    const viewer::SliceOptions options{
+        .memory_bytes = arguments.given("memory") ? arguments.bytes("memory") : 0,
+        .seed = static_cast<std::uint64_t>(arguments.integer("seed"))};
     for (std::string& note : raster::make_slices_of_yarns(geometry, options.seed)) {
         geometry.notes.push_back(std::move(note));
     }
@@ -106,10 +115,9 @@ void run_view(const Arguments& arguments, Report& report, ProgressBar& bar) {
     make_folder(arguments.text("output"));
     bar.begin("place slices", "files", 1);
     const raster::Context context;
-    const viewer::SliceView view(context, std::move(geometry), options);
+    viewer::SliceView view(context, std::move(geometry), options);
     report.text("output", arguments.text("output"));
     report.text("driver", context.driver());
-    report.count("slices", view.slice_count());
     draw_frames(view, arguments, report, bar);
     bar.finish();
     for (const auto& [stage, seconds] : bar.stages()) report.seconds(stage, seconds);
@@ -138,12 +146,22 @@ Command view_command() {
          "points up in the picture; pictures go around it"},
         {"--light", "X,Y,Z", "-0.5,0.6,1", numbers(3, 3, -kInf, kInf), "any length",
          "direction from the object to the light"},
+        {"--target", "X,Y,Z", "(the middle of all)", numbers(3, 3, -kInf, kInf), "scene units",
+         "what is in the picture's middle"},
         {"--zoom", "Z", "1", positive(), "", "1 = all of the object, from any side"},
+        {"--view-angle", "A", "35", number(0, 170), "degrees",
+         "across the picture's height; 0 = parallel rays"},
         {"--size", "WxH", "960x960", numbers(2, 2, 1, 8192, 'x'), "pixels", "of a picture"},
+        {"--color", "MODE", "shaded", one_of({"shaded", "direction"}), "",
+         "direction: x^2, y^2, z^2 of the fiber's as red, green, blue"},
         {"--opacity", "K", "1", positive(), "", "multiplies how much a slice hides"},
+        {"--blend", "MODE", "sorted", one_of({"sorted", "weighted", "placed"}), "",
+         "weighted: no order shows, also taken where slices exceed --memory; placed: as they come, "
+         "to compare"},
+        {"--memory", "BYTES", "(what one buffer of the driver holds)", bytes(), "K, M, G",
+         "of slices in view and their order"},
         {"--no-shadows", "", "", flag(), "", "leaves out the shadow map"},
         {"--no-occlusion", "", "", flag(), "", "leaves out what fibers hide in their section"},
-        {"--unsorted", "", "", flag(), "", "draws slices as they were placed, to compare"},
     };
     options.insert(options.end(), more.begin(), more.end());
     return {"view", "pictures of yarns as shaded slices, by OpenGL", options, run_view};

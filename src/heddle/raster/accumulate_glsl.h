@@ -80,8 +80,7 @@ void advance(inout March m, float side, float end, float speed, float least) {
 
 void main() {
     ivec2 pixel = pixel_of(gl_FragCoord.xy);
-    start(pixel);
-    vec2 range = range_of_slab();
+    vec2 range = start_column(pixel);
     if (!(range.x < range.y)) return;
     // how fast the ray moves over the section, at most
     float lean = along[axis];

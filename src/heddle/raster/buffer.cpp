@@ -54,9 +54,8 @@ void Buffer::bind_indirect() const {
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, id_);
 }
 
-void Buffer::clear() const {
-    const GLuint zero = 0;
-    glClearNamedBufferData(id_, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+void Buffer::clear(std::uint32_t word) const {
+    glClearNamedBufferData(id_, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &word);
 }
 
 void Buffer::write(std::span<const std::byte> bytes, std::size_t offset) const {

@@ -27,8 +27,8 @@ public:
     void bind_uniform(std::uint32_t binding) const;
     /// As source of indirect draws.
     void bind_indirect() const;
-    /// Sets all of it to 0.
-    void clear() const;
+    /// Sets all its words of 32 bits.
+    void clear(std::uint32_t word = 0) const;
     void write(std::span<const std::byte> bytes, std::size_t offset = 0) const;
     /// Waits for the shaders before it.
     void read(std::span<std::byte> out, std::size_t offset = 0) const;

@@ -28,8 +28,7 @@ void compose(uint words, uint alpha, ivec3 at) {
 
 void main() {
     ivec2 pixel = pixel_of(gl_FragCoord.xy);
-    start(pixel);
-    vec2 range = range_of_slab();
+    vec2 range = start_column(pixel);
     if (!(range.x < range.y)) return;
     int shift = subvoxels == 8 ? 3 : subvoxels == 4 ? 2 : subvoxels == 2 ? 1 : 0;
     ivec3 at = axis == 0 ? ivec3(0, pixel) : axis == 1 ? ivec3(pixel.x, 0, pixel.y) : ivec3(pixel, 0);

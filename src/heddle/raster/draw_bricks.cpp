@@ -3,6 +3,7 @@
 #include <heddle/base/error.h>
 #include <heddle/raster/accumulate_glsl.h>
 #include <heddle/raster/brick_glsl.h>
+#include <heddle/raster/column_glsl.h>
 #include <heddle/raster/compose_glsl.h>
 #include <heddle/raster/slab_glsl.h>
 #include <heddle/raster/slice_glsl.h>
@@ -41,8 +42,8 @@ Program make_draw(Composition composition) {
     const std::string shared = std::string(kSliceGlsl) + std::string(kBrickGlsl);
     const std::string_view body =
         composition == Composition::Accumulate ? kAccumulateGlsl : kComposeGlsl;
-    return Program::draw("draw slices", shared, kQuadGlsl,
-                         std::string(kSlabGlsl) + std::string(body));
+    return Program::draw("draw slices", shared, std::string(kStretchGlsl) + std::string(kQuadGlsl),
+                         std::string(kSlabGlsl) + std::string(kColumnGlsl) + std::string(body));
 }
 
 void check_last(std::span<const SliceChunk> chunks, Composition composition) {

@@ -43,7 +43,7 @@ const uint kLinear = 2u;
 const uint kBSpline = 4u;
 const uint kColored = 8u;
 struct Knot { vec3 normal; uint before; }; // before: slices of its curve up to it
-struct Course { double length; double turns; double slices; double pad; };
+struct Course { double length; double turns; double slices; double most; }; // most: of a span, wanted
 
 layout(std430, binding = 0) readonly buffer Points { vec4 points[]; };
 layout(std430, binding = 1) readonly buffer Colors { uint colors[]; };
@@ -109,7 +109,7 @@ uniform uint curve_count;
 
 const float kMostBend = 0.2;  // radians between neighbours
 const float kMostTurn = 0.4;  // radians of twist
-const double kMostSlices = 1.0e6; // of a span: more are refused before they are placed
+const double kMostSlices = 1.0e6; // of a span: more are refused
 
 double arc_length(Cubic c) { // five-point Gauss-Legendre on the speed
     const float x[5] = float[](0.046910077, 0.23076534, 0.5, 0.76923466, 0.95308992);
@@ -158,6 +158,7 @@ void main() {
     vec3 start = normal;
     double sum = 0.0LF;
     double slices = 0.0LF;
+    double wanted = 0.0LF;
     for (uint k = 0u; k < curve.spans; ++k) {
         knot_length[curve.first_knot + k] = sum;
         knots[curve.first_knot + k] = Knot(normal, uint(slices));
@@ -166,6 +167,7 @@ void main() {
         sum += span;
         float most = max(float(span) / curve.spacing, bend_of(cubic) / kMostBend);
         most = max(most, abs(curve.twist) * float(span * per_unit) / kMostTurn);
+        wanted = max(wanted, double(ceil(most)));
         slices += clamp(double(ceil(most)), 1.0LF, kMostSlices);
         vec3 next = tangent_at(cubic, 1.0);
         normal = transport(normal, cubic.c0, tangent, cubic_at(cubic, 1.0), next);
@@ -179,7 +181,7 @@ void main() {
         float closing = atan(dot(cross(normal, start), tangent), dot(normal, start)) / 6.2831853;
         turns = (floor(turns * sum + 0.5LF) + double(closing)) / sum;
     }
-    courses[item()] = Course(sum, turns, slices + 1.0LF, 0.0LF);
+    courses[item()] = Course(sum, turns, slices + 1.0LF, wanted);
 }
 )";
 

@@ -11,6 +11,7 @@ namespace heddle::raster {
 namespace {
 
 constexpr double kMostSlices = 4294967295.0; ///< slices are numbered by 32 bits
+constexpr double kMostOfSpan = 1.0e6;        ///< as kCourseGlsl has it
 
 /// As kCurveGlsl has it.
 struct CurveRow {
@@ -22,7 +23,7 @@ struct CurveRow {
 static_assert(sizeof(CurveRow) == 64);
 
 struct CourseRow {
-    double length, turns, slices, pad;
+    double length, turns, slices, most;
 };
 
 struct PointRow {
@@ -89,7 +90,7 @@ void add_set(CurveTables& out,
         const float fixed = yarn == nullptr ? 0.0f : yarn->radius;
         const double radius =
             inv * static_cast<double>(fixed > 0.0f ? fixed : set.radius_at(set.first[c]));
-        if (yarn != nullptr) check_twist(*yarn, radius);
+        if (yarn != nullptr && options.lattice) check_twist(*yarn, radius);
         CurveRow row{};
         row.first_point = base + static_cast<std::uint32_t>(set.first[c]);
         row.points = static_cast<std::uint32_t>(set.first[c + 1] - set.first[c]);
@@ -136,7 +137,13 @@ split_runs(const CurveTables& tables, const std::vector<CourseRow>& courses, std
 
 void check_count(const std::vector<CourseRow>& courses, double most) {
     double total = 0.0;
-    for (const CourseRow& c : courses) total += c.slices;
+    for (const CourseRow& c : courses) {
+        total += c.slices;
+        if (c.most <= kMostOfSpan) continue;
+        throw Error(ErrorCode::InvalidArgument,
+                    str("raster: ", c.most, " slices between two points of a yarn (limit 10^6)"),
+                    "use a smaller twist, or more points");
+    }
     const double limit = most > 0.0 ? most : kMostSlices;
     if (total <= limit) return;
     throw Error(ErrorCode::InvalidArgument,
@@ -188,8 +195,9 @@ std::vector<SliceChunk> place_slices(const Context& context,
     firsts.bind_storage(6);
     const Program place = Program::compute("place slices", shared, kPlaceGlsl);
     std::vector<SliceChunk> out;
-    const auto most =
-        static_cast<std::uint64_t>(context.limits().storage_bytes) / sizeof(PlacedSlice);
+    std::int64_t bytes = context.limits().storage_bytes;
+    if (options.chunk_bytes > 0) bytes = std::min(bytes, options.chunk_bytes);
+    const auto most = static_cast<std::uint64_t>(bytes) / sizeof(PlacedSlice);
     for (const CurveRun& run : split_runs(tables, courses, most)) {
         if (run.slices == 0) continue;
         SliceChunk chunk{.slices = Buffer("slices", run.slices * sizeof(PlacedSlice)),

@@ -1,21 +1,23 @@
 #include <heddle/viewer/slice_view.h>
 
 #include <heddle/base/error.h>
-#include <heddle/geom/slice_image.h>
 #include <heddle/raster/brick_glsl.h>
 #include <heddle/raster/slab_glsl.h>
 #include <heddle/raster/slice_glsl.h>
-#include <heddle/raster/slices.h>
 #include <heddle/raster/texture.h>
-#include <heddle/viewer/radix_sort.h>
+#include <heddle/viewer/seen_slices.h>
 #include <heddle/viewer/view_glsl.h>
-#include <heddle/viewer/view_target.h>
+#include <heddle/viewer/view_sections.h>
+#include <heddle/viewer/weighted_blend.h>
+
+#include <epoxy/gl.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace heddle::viewer {
 namespace {
@@ -23,22 +25,8 @@ namespace {
 using raster::Buffer;
 using raster::Program;
 
-constexpr std::int32_t kShadowSize = 1024;
-constexpr std::uint32_t kNothing = 0xffffffff; ///< of the shadow map: all is lit
-
-/// Axes of a view, unit and at right angles; z away from the eye.
-struct Axes {
-    Vec3d right, up, away;
-
-    Axes(Vec3d from, Vec3d upward) {
-        away = normalize(from * -1.0);
-        right = normalize(cross(away, upward), to_double(any_perpendicular(to_float(away))));
-        up = cross(right, away);
-    }
-    [[nodiscard]] Vec3f of(Vec3d v) const {
-        return to_float({dot(right, v), dot(up, v), dot(away, v)});
-    }
-};
+constexpr std::uint32_t kNothing = 0xffffffff; ///< of a depth map: all is lit
+constexpr double kDepths = 16777215.0;         ///< that it tells apart
 
 /// Every set gets one material, whose colour goes to its points: all slices are sorted as one.
 void merge_materials(Geometry& geometry) {
@@ -53,42 +41,6 @@ void merge_materials(Geometry& geometry) {
         set.material = 0;
     }
 }
-
-/// What the section's occlusion leaves, by layer; plain fibers have none.
-std::vector<std::vector<std::uint8_t>> light_of(const Geometry& geometry,
-                                                const raster::SectionLayers& sections) {
-    const auto n = static_cast<std::size_t>(sections.size);
-    std::vector<std::vector<std::uint8_t>> out(sections.layers.size(),
-                                               std::vector<std::uint8_t>(n * n, 255));
-    for (std::size_t s = 0; s < geometry.curves.size(); ++s) {
-        const YarnType* yarn = geometry.yarn_of(geometry.curves[s]);
-        if (yarn == nullptr || yarn->model != YarnModel::Slice) continue;
-        const Texture baked = bake_occlusion(*yarn);
-        for (std::uint32_t l = sections.first[s]; l < sections.first[s + 1]; ++l) {
-            const float extent = sections.layers[l].extent / yarn->model_radius;
-            for (std::size_t i = 0; i < n * n; ++i) {
-                const auto part = [&](std::size_t at) {
-                    return ((static_cast<float>(at) + 0.5f) / static_cast<float>(n) * 2.0f - 1.0f) *
-                           extent;
-                };
-                const float col = (part(i % n) + 1.0f) * 0.5f * static_cast<float>(baked.width);
-                const float row = (1.0f - part(i / n)) * 0.5f * static_cast<float>(baked.height);
-                if (!(col >= 0.0f && row >= 0.0f)) continue;
-                const auto c = static_cast<std::int32_t>(col);
-                const auto r = static_cast<std::int32_t>(row);
-                if (c >= baked.width || r >= baked.height) continue;
-                out[l][i] = baked.texels[static_cast<std::size_t>(r * baked.width + c)];
-            }
-        }
-    }
-    return out;
-}
-
-/// A ball around all matter.
-struct Ball {
-    Vec3d middle;
-    double radius = 0.0;
-};
 
 Ball ball_of(const Geometry& geometry) {
     Bounds box;
@@ -105,210 +57,283 @@ Ball ball_of(const Geometry& geometry) {
     return {(box.lo + box.hi) * 0.5, 0.5 * length(box.size()) + 1.5 * reach};
 }
 
-std::uint8_t to_srgb(double linear) {
-    const double x = std::clamp(linear, 0.0, 1.0);
-    const double s = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
-    return static_cast<std::uint8_t>(255.0 * s + 0.5);
+/// Slabs as quads, and fragments of these parts.
+Program slab_program(const char* name, std::initializer_list<std::string_view> fragment) {
+    const std::string shared =
+        std::string(raster::kSliceGlsl) + std::string(raster::kBrickGlsl) + std::string(kEyeGlsl);
+    const std::string vertex =
+        std::string(raster::kStretchGlsl) + std::string(kAcrossGlsl) + std::string(kSeenQuadGlsl);
+    std::string body = std::string(raster::kSlabGlsl) + std::string(kOpacityGlsl);
+    for (const std::string_view part : fragment) body += part;
+    return Program::draw(name, shared, vertex, body);
 }
 
-ViewImage over_white(const ViewOptions& options, const std::vector<float>& rgba) {
-    ViewImage out{options.width, options.height, {}};
-    const auto width = static_cast<std::size_t>(options.width);
-    const auto height = static_cast<std::size_t>(options.height);
-    out.rgb.resize(3 * width * height);
-    for (std::size_t i = 0; i < width * height; ++i) {
-        const float* from = &rgba[4 * ((height - 1 - i / width) * width + i % width)];
-        for (std::size_t c = 0; c < 3; ++c) {
-            out.rgb[3 * i + c] = to_srgb(static_cast<double>(from[c] + 1.0f - from[3]));
-        }
+/// A map of another size than the picture is drawn whole.
+class ScissorOff {
+public:
+    ScissorOff() : was_(glIsEnabled(GL_SCISSOR_TEST)) { glDisable(GL_SCISSOR_TEST); }
+    ~ScissorOff() {
+        if (was_ == GL_TRUE) glEnable(GL_SCISSOR_TEST);
     }
-    return out;
-}
+    ScissorOff(const ScissorOff&) = delete;
+    ScissorOff& operator=(const ScissorOff&) = delete;
 
-Program slab_program(const char* name, std::string_view fragment) {
-    const std::string shared = std::string(raster::kSliceGlsl) + std::string(raster::kBrickGlsl);
-    return Program::draw(name, shared, raster::kQuadGlsl,
-                         std::string(raster::kSlabGlsl) + std::string(kOpacityGlsl) +
-                             std::string(fragment));
+private:
+    GLboolean was_;
+};
+
+void check_look(const SliceLook& look) {
+    if (look.opacity > 0.0 && length(look.light) > 0.0 && look.map_size >= 16 &&
+        look.map_size <= 8192) {
+        return;
+    }
+    throw Error(ErrorCode::InvalidArgument,
+                str("view: opacity ", look.opacity, ", a shadow map of ", look.map_size,
+                    " pixels, a light of length ", length(look.light)),
+                "use an opacity above 0, a map of 16 to 8192 pixels and a light of any length "
+                "but 0");
 }
 
 } // namespace
 
 struct SliceView::Scene {
     const raster::Context& context;
-    ViewOptions options;
+    SliceOptions options;
+    Geometry geometry;
     Ball ball;
+    double pixel = 0.0; ///< that slices were placed for, scene units
     LatticeUnits units;
-    std::optional<raster::SliceChunk> slices;
-    std::int32_t section_size = 0;
-    std::uint32_t slabs = 0;
-    std::unique_ptr<ViewSections> sections;
-    std::unique_ptr<raster::EmptyFrame> frame;
-    std::unique_ptr<ViewTarget> target;
-    std::unique_ptr<RadixSort> sort;
-    std::unique_ptr<Buffer> seen;
-    std::unique_ptr<Buffer> shadow;
-    Program see = Program::compute("see slices", raster::kSliceGlsl, kSeeGlsl);
-    Program shadow_program = slab_program("draw shadows", kShadowGlsl);
-    Program shade_program = slab_program("shade slices", kShadeGlsl);
+    raster::SectionLayers layers;
+    ViewSections sections;
+    raster::EmptyFrame frame;
+    std::optional<SeenSlices> slices;
+    Program nearest = slab_program("find what is nearest", {kDepthGlsl, kNearestGlsl});
+    Program over = slab_program("shade slices", {kDepthGlsl, kShadeGlsl, kOverGlsl});
+    Program weigh = slab_program("weigh slices", {kDepthGlsl, kShadeGlsl, kWeighGlsl});
 
-    Scene(const raster::Context& on, const ViewOptions& asked) : context(on), options(asked) {}
+    /// What the shadow map holds.
+    struct Shadow {
+        Vec3d light;
+        double opacity;
+        std::int32_t size;
+        bool operator==(const Shadow&) const = default;
+    };
+    std::optional<Shadow> shadowed;
+    std::optional<Buffer> shadow;
+    std::optional<Buffer> front; ///< what is nearest to the eye
+    std::optional<WeightedBlend> blend;
+    std::int32_t blend_width = 0, blend_height = 0;
 
-    void see_from(const Axes& axes, double zoom, Vec3f shift, bool sorted) const;
-    void set_common(const Program& program, std::int32_t width, std::int32_t height) const;
-    void draw_shadows(const Axes& light) const;
-    void set_light(const Axes& view, const Axes& light, double zoom, Vec3d to_light) const;
+    Scene(const raster::Context& on, Geometry what, const SliceOptions& asked)
+        : context(on),
+          options(asked),
+          geometry(std::move(what)),
+          layers(raster::build_sections(geometry, asked.seed)),
+          sections(layers, bake_light(geometry, layers)) {}
+
+    [[nodiscard]] Vec3d middle() const { return ball.middle * (1.0 / units.unit); }
+    void place(double asked_pixel);
+    void set_common(const Program& program, const EyeFrame& eye, const SliceLook& look) const;
+    void set_light(const Program& program, const EyeFrame& eye, const SliceLook& look) const;
+    void set_depths(const Program& program, double shift) const;
+    void draw_nearest(const EyeFrame& eye, const SliceLook& look, double shift, const Buffer& map);
+    void draw_shadows(const SliceLook& look);
+    void draw_weighted(const ViewTarget& target, const EyeFrame& eye, const SliceLook& look);
 };
 
-void SliceView::Scene::see_from(const Axes& axes, double zoom, Vec3f shift, bool sorted) const {
-    slices->slices.bind_storage(0);
-    seen->bind_storage(1);
-    sort->keys().bind_storage(2);
-    sort->values().bind_storage(3);
-    see.set("slice_count", slices->count);
-    see.set("right", to_float(axes.right));
-    see.set("up", to_float(axes.up));
-    see.set("away", to_float(axes.away));
-    see.set("middle", to_float(ball.middle * (1.0 / units.unit)));
-    see.set("shift", shift);
-    see.set("zoom", static_cast<float>(zoom));
-    see.set("sorted", sorted ? 1 : 0);
-    see.dispatch(slices->count);
-    sort->sort(); // unsorted: slabs before what is none
+void SliceView::Scene::place(double asked_pixel) {
+    const LatticeUnits next(
+        {.voxel_size = {asked_pixel, asked_pixel, asked_pixel}, .subvoxels = 1});
+    const std::int64_t each = kSeenBytes + static_cast<std::int64_t>(sizeof(raster::PlacedSlice));
+    const auto part = static_cast<std::int64_t>(sizeof(raster::PlacedSlice));
+    std::vector<raster::SliceChunk> chunks =
+        raster::place_slices(context, geometry, layers, next,
+                             {.chunk_bytes = options.memory_bytes / each * part, .lattice = false});
+    if (chunks.empty()) {
+        throw Error(ErrorCode::Unsupported,
+                    str("view: no curve of '", geometry.name, "' has any length"),
+                    "give curves of two points or more");
+    }
+    slices.emplace(std::move(chunks));
+    context.check("place slices");
+    units = next;
+    pixel = asked_pixel;
+    shadowed.reset();
 }
 
 void SliceView::Scene::set_common(const Program& program,
-                                  std::int32_t width,
-                                  std::int32_t height) const {
-    constexpr std::int32_t kFar = 1 << 24;
+                                  const EyeFrame& eye,
+                                  const SliceLook& look) const {
     program.use();
-    program.set("voxel_lo", Vec3i{-kFar, -kFar, -kFar});
-    program.set("voxel_hi", Vec3i{kFar, kFar, kFar});
-    program.set("edge", Vec3f{1.0f, 1.0f, 1.0f});
-    program.set("subvoxels", 1);
-    program.set("axis", 2);
-    program.set("view_lo", Vec3i{});
-    program.set("view_size", Vec3i{width, height, 1});
-    program.set("section_size", static_cast<float>(section_size));
-    program.set("opacity", static_cast<float>(options.opacity));
-    program.set("shadow_size", options.shadows ? kShadowSize : 0);
-    sections->bind();
-    seen->bind_storage(0);
-    sort->values().bind_storage(2);
-    shadow->bind_storage(4);
+    eye.set_uniforms(program);
+    program.set("section_size", static_cast<float>(layers.size));
+    program.set("opacity", static_cast<float>(look.opacity));
+    sections.bind();
 }
 
-void SliceView::Scene::draw_shadows(const Axes& light) const {
-    const std::vector<std::uint32_t> clear(
-        static_cast<std::size_t>(kShadowSize) * static_cast<std::size_t>(kShadowSize), kNothing);
-    shadow->write(std::as_bytes(std::span(clear)));
-    const double zoom = 0.5 * kShadowSize / (ball.radius / units.unit);
-    see_from(light, zoom, {0.5f * kShadowSize, 0.5f * kShadowSize, 0.0f}, false);
-    set_common(shadow_program, kShadowSize, kShadowSize);
-    frame->bind(kShadowSize, kShadowSize);
-    ViewTarget::draw_quads(slabs);
+/// Depths of a ball around all, from `shift` on.
+void SliceView::Scene::set_depths(const Program& program, double shift) const {
+    program.set("depth_scale", static_cast<float>(kDepths * units.unit / (2.0 * ball.radius)));
+    program.set("depth_shift", static_cast<float>(shift));
+}
+
+void SliceView::Scene::draw_nearest(const EyeFrame& eye,
+                                    const SliceLook& look,
+                                    double shift,
+                                    const Buffer& map) {
+    map.clear(kNothing);
+    raster::finish_writes();
+    for (std::size_t c = 0; c < slices->chunk_count(); ++c) {
+        const std::uint32_t slabs = slices->see(c, eye, middle(), false);
+        set_common(nearest, eye, look);
+        set_depths(nearest, shift);
+        map.bind_storage(4);
+        frame.bind(eye.width, eye.height);
+        ViewTarget::draw_quads(slabs);
+    }
     raster::finish_writes();
 }
 
-void SliceView::Scene::set_light(const Axes& view,
-                                 const Axes& light,
-                                 double zoom,
-                                 Vec3d to_light) const {
-    const double shadow_zoom = 0.5 * kShadowSize / (ball.radius / units.unit);
-    const double ratio = shadow_zoom / zoom; // pixels of the map a pixel
-    shade_program.set("to_light", view.of(normalize(to_light)));
-    shade_program.set("light_right", view.of(light.right * ratio));
-    shade_program.set("light_up", view.of(light.up * ratio));
-    shade_program.set("light_away", view.of(light.away * ratio));
-    shade_program.set("light_shift", Vec3f{0.5f * kShadowSize, 0.5f * kShadowSize, 0.0f});
-    shade_program.set("view_middle", Vec3f{0.5f * static_cast<float>(options.width),
-                                           0.5f * static_cast<float>(options.height), 0.0f});
-    shade_program.set("occlusion", options.occlusion ? 1 : 0);
+void SliceView::Scene::draw_shadows(const SliceLook& look) {
+    const Shadow now{look.light, look.opacity, look.map_size};
+    if (shadowed == now) return;
+    const auto pixels = static_cast<std::size_t>(look.map_size);
+    if (!shadow || shadow->byte_count() != pixels * pixels * sizeof(std::uint32_t)) {
+        shadow.emplace("the shadow map", pixels * pixels * sizeof(std::uint32_t));
+    }
+    const ScissorOff whole;
+    const EyeFrame eye(ball, look.light, look.map_size, units.unit);
+    draw_nearest(eye, look, -ball.radius / units.unit, *shadow);
+    shadowed = now;
 }
 
-SliceView::SliceView(const raster::Context& context, Geometry geometry, const ViewOptions& options)
-    : scene_(std::make_unique<Scene>(context, options)) {
-    constexpr std::int32_t kMost = 8192;
-    if (options.width < 1 || options.height < 1 || options.width > kMost ||
-        options.height > kMost || !(options.opacity > 0.0)) {
-        throw Error(ErrorCode::InvalidArgument,
-                    str("view: ", options.width, " x ", options.height, " pixels, opacity ",
-                        options.opacity),
-                    "use 1 to 8192 pixels and an opacity above 0");
+void SliceView::Scene::set_light(const Program& program,
+                                 const EyeFrame& eye,
+                                 const SliceLook& look) const {
+    const EyeFrame map(ball, look.light, look.map_size, units.unit);
+    const auto seen = [&](Vec3d v, double factor) { return to_float(eye.axes.of(v) * factor); };
+    program.set("to_light", seen(normalize(look.light), 1.0));
+    program.set("light_right", seen(map.axes.right, 1.0 / map.pixel));
+    program.set("light_up", seen(map.axes.up, 1.0 / map.pixel));
+    program.set("light_away", seen(map.axes.away, 1.0));
+    program.set("light_middle", eye.seen(middle()));
+    program.set("light_pixel", static_cast<float>(map.pixel));
+    program.set("shadow_size", look.shadows ? look.map_size : 0);
+    program.set("occlusion", look.occlusion ? 1 : 0);
+    program.set("color_mode", static_cast<std::int32_t>(look.color));
+    program.set("world_x", seen({1.0, 0.0, 0.0}, 1.0));
+    program.set("world_y", seen({0.0, 1.0, 0.0}, 1.0));
+    program.set("world_z", seen({0.0, 0.0, 1.0}, 1.0));
+    set_depths(program, -ball.radius / units.unit);
+    if (look.shadows) shadow->bind_storage(4);
+}
+
+void SliceView::Scene::draw_weighted(const ViewTarget& target,
+                                     const EyeFrame& eye,
+                                     const SliceLook& look) {
+    if (!blend || blend_width != eye.width || blend_height != eye.height) {
+        blend.emplace(eye.width, eye.height);
+        front.emplace("what is nearest", sizeof(std::uint32_t) *
+                                             static_cast<std::size_t>(eye.width) *
+                                             static_cast<std::size_t>(eye.height));
+        blend_width = eye.width;
+        blend_height = eye.height;
     }
-    Scene& s = *scene_;
-    s.ball = ball_of(geometry);
-    if (!geometry.meshes.empty() || !(s.ball.radius > 0.0)) {
+    const double first = length(middle() - eye.eye) - ball.radius / units.unit;
+    draw_nearest(eye, look, first, *front);
+    blend->begin();
+    for (std::size_t c = 0; c < slices->chunk_count(); ++c) {
+        const std::uint32_t slabs = slices->see(c, eye, middle(), false);
+        set_common(weigh, eye, look);
+        set_light(weigh, eye, look);
+        weigh.set("eye_scale", static_cast<float>(kDepths * units.unit / (2.0 * ball.radius)));
+        weigh.set("eye_shift", static_cast<float>(first));
+        front->bind_storage(5);
+        ViewTarget::draw_quads(slabs);
+    }
+    blend->resolve(target);
+}
+
+SliceView::SliceView(const raster::Context& context,
+                     Geometry geometry,
+                     const SliceOptions& options) {
+    const Ball ball = ball_of(geometry);
+    if (!geometry.meshes.empty() || !(ball.radius > 0.0)) {
         throw Error(ErrorCode::Unsupported,
                     str("view: '", geometry.name, "' has meshes, or no yarn and hair at all"),
-                    "look at its .vdb with heddle preview");
+                    "look at its .vdb");
     }
     merge_materials(geometry);
-    const double pixel = 2.0 * s.ball.radius / std::min(options.width, options.height);
-    s.units = LatticeUnits({.voxel_size = {pixel, pixel, pixel}, .subvoxels = 1});
-    const raster::SectionLayers layers = raster::build_sections(geometry, options.seed);
-    std::vector<raster::SliceChunk> chunks =
-        raster::place_slices(context, geometry, layers, s.units, {});
-    if (chunks.size() != 1) {
-        throw Error(ErrorCode::Unsupported,
-                    str("view: slices fill ", chunks.size(), " buffers of the driver (limit 1)"),
-                    "look at a part, or at its .vdb with heddle preview");
-    }
-    s.slices = std::move(chunks[0]);
-    s.section_size = layers.size;
-    for (const raster::PlacedSlice& p : raster::read_slices(*s.slices)) {
-        s.slabs += p.flags == 0 ? 1u : 0u;
-    }
-    s.sections = std::make_unique<ViewSections>(layers, light_of(geometry, layers));
-    s.frame = std::make_unique<raster::EmptyFrame>();
-    s.target = std::make_unique<ViewTarget>(options.width, options.height);
-    s.sort = std::make_unique<RadixSort>(s.slices->count);
-    s.seen = std::make_unique<Buffer>("slices in view", s.slices->slices.byte_count());
-    s.shadow = std::make_unique<Buffer>("shadow map", sizeof(std::uint32_t) * kShadowSize *
-                                                          static_cast<std::size_t>(kShadowSize));
-    context.check("view");
+    scene_ = std::make_unique<Scene>(context, std::move(geometry), options);
+    scene_->ball = ball;
+    scene_->place(options.pixel > 0.0 ? options.pixel : 2.0e-3 * ball.radius);
 }
 
 SliceView::~SliceView() = default;
 
-std::int64_t SliceView::slice_count() const {
-    return scene_->slices->count;
+void SliceView::place(Geometry geometry) {
+    const Ball ball = ball_of(geometry);
+    merge_materials(geometry);
+    std::swap(scene_->geometry, geometry);
+    try {
+        scene_->place(scene_->pixel);
+    } catch (...) {
+        std::swap(scene_->geometry, geometry);
+        throw;
+    }
+    scene_->ball = ball;
 }
 
-ViewImage SliceView::draw(const ViewPose& pose, ViewTimes* times) const {
+std::int64_t SliceView::slice_count() const {
+    return scene_->slices->slice_count();
+}
+
+Ball SliceView::ball() const {
+    return scene_->ball;
+}
+
+bool SliceView::is_split() const {
+    return scene_->slices->chunk_count() > 1;
+}
+
+void SliceView::draw(const ViewTarget& target,
+                     const CameraView& camera,
+                     const SliceLook& look,
+                     SliceTimes* times) {
     using Clock = std::chrono::steady_clock;
-    const Scene& s = *scene_;
-    if (!(length(pose.from) > 0.0) || !(length(pose.light) > 0.0) || !(pose.zoom > 0.0)) {
-        throw Error(ErrorCode::InvalidArgument, "view: a direction or the zoom is 0",
-                    "give directions of any length but 0");
-    }
-    const Axes view(pose.from, pose.up);
-    const Axes light(pose.light, pose.up);
+    check_look(look);
+    Scene& s = *scene_;
+    const auto pixel_at_target = [&] {
+        const EyeFrame eye(camera, target.width(), target.height(), 1.0);
+        return eye.pixel * (eye.parallel ? 1.0 : length(camera.eye - camera.target));
+    };
+    const double ratio = pixel_at_target() / s.pixel;
+    if (ratio > 4.0 || ratio < 0.25) s.place(pixel_at_target());
+    const EyeFrame eye(camera, target.width(), target.height(), s.units.unit);
     const auto start = Clock::now();
-    if (s.options.shadows) {
-        s.draw_shadows(light);
-        s.context.check("shadows");
+    const auto waited = [&](const char* stage) {
+        if (times == nullptr) return Clock::time_point{};
+        glFinish();
+        s.context.check(stage);
+        return Clock::now();
+    };
+    if (look.shadows) s.draw_shadows(look);
+    const auto shadowed = waited("shadows");
+    auto sorted = shadowed;
+    if (look.weighted || is_split()) {
+        s.draw_weighted(target, eye, look);
+    } else {
+        const std::uint32_t slabs = s.slices->see(0, eye, s.middle(), look.sorted);
+        sorted = waited("sort slices");
+        target.begin();
+        s.set_common(s.over, eye, look);
+        s.set_light(s.over, eye, look);
+        ViewTarget::draw_quads(slabs);
     }
-    const auto shadowed = Clock::now();
-    const Vec3f shift{0.5f * static_cast<float>(s.options.width),
-                      0.5f * static_cast<float>(s.options.height), 0.0f};
-    s.see_from(view, pose.zoom, shift, s.options.sorted);
-    s.context.check("sort slices");
-    const auto sorted = Clock::now();
-    s.set_common(s.shade_program, s.options.width, s.options.height);
-    s.set_light(view, light, pose.zoom, pose.light);
-    s.target->begin();
-    ViewTarget::draw_quads(s.slabs);
-    ViewImage image = over_white(s.options, s.target->read());
-    s.context.check("draw slices");
-    if (times != nullptr) {
-        const auto seconds = [](Clock::duration d) {
-            return std::chrono::duration<double>(d).count();
-        };
-        *times = {seconds(sorted - shadowed), seconds(shadowed - start),
-                  seconds(Clock::now() - sorted)};
-    }
-    return image;
+    const auto drawn = waited("draw slices");
+    if (times == nullptr) return;
+    const auto seconds = [](Clock::duration d) { return std::chrono::duration<double>(d).count(); };
+    *times = {seconds(sorted - shadowed), seconds(shadowed - start), seconds(drawn - sorted)};
 }
 
 } // namespace heddle::viewer

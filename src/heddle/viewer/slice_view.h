@@ -2,59 +2,74 @@
 
 #include <heddle/geom/geometry.h>
 #include <heddle/raster/context.h>
+#include <heddle/render/camera.h>
+#include <heddle/viewer/orbit.h>
+#include <heddle/viewer/view_target.h>
 
 #include <cstdint>
 #include <memory>
-#include <vector>
 
 namespace heddle::viewer {
 
-/// How yarns are looked at.
-struct ViewOptions {
-    std::int32_t width = 960; ///< pixels, 1 to 8192
-    std::int32_t height = 960;
-    bool sorted = true;     ///< slabs from the farthest to the nearest; else as they were placed
-    bool shadows = true;    ///< a shadow map
-    bool occlusion = true;  ///< of fibers within their section
-    double opacity = 1.0;   ///< multiplies what a texel of a slice hides, > 0
-    std::uint64_t seed = 0; ///< of the fibers' places
+/// How yarns are made slices.
+struct SliceOptions {
+    double pixel = 0.0; ///< scene units: slices are no closer; 0: 1/1000 of all that is there
+    std::int64_t memory_bytes = 0; ///< of slices in view and their order, at most; 0: one buffer's
+    std::uint64_t seed = 0;        ///< of the fibers' places
 };
 
-/// From where; parallel rays.
-struct ViewPose {
-    Vec3d from{0.3, -0.6, 1.0};  ///< from the object to the eye, any length but 0
-    Vec3d up{0.0, 1.0, 0.0};     ///< not along `from`
-    Vec3d light{-0.5, 0.6, 1.0}; ///< from the object to the light
-    double zoom = 1.0;           ///< 1: all of the object is in the picture from any side
+enum class SliceColor : std::uint8_t {
+    Shaded,   ///< Kajiya and Kay's model
+    Direction ///< x^2, y^2, z^2 of the fiber's direction as red, green, blue
 };
 
-/// 8 bits a channel, sRGB, over white, rows from the top.
-struct ViewImage {
-    std::int32_t width = 0;
-    std::int32_t height = 0;
-    std::vector<std::uint8_t> rgb;
+/// How slices look.
+struct SliceLook {
+    Vec3d light{-0.5, 0.6, 1.0}; ///< from the object to the light, any length but 0
+    bool sorted = true;    ///< slabs from the farthest to the nearest; else as they were placed
+    bool weighted = false; ///< blends so that no order shows, instead; always where slices fill
+                           ///< more than one chunk
+    bool shadows = true;   ///< a shadow map
+    bool occlusion = true; ///< of fibers within their section
+    double opacity = 1.0;  ///< multiplies what a texel of a slice hides, > 0
+    std::int32_t map_size = 1024; ///< of the shadow map, pixels, 16 to 8192
+    SliceColor color = SliceColor::Shaded;
 };
 
 /// Seconds of a picture's stages, each waited for.
-struct ViewTimes {
+struct SliceTimes {
     double sort = 0.0;   ///< places in the view and their order
-    double shadow = 0.0; ///< the shadow map
+    double shadow = 0.0; ///< the shadow map; 0 where the last one serves
     double draw = 0.0;
 };
 
 /// Yarns as alpha-blended slices, shaded by Kajiya and Kay's model.     [LopezMoreno17, 4; docs/raster.md]
 class SliceView {
 public:
-    /// Places the slices, once.
+    /// Makes the sections and places the slices.
     /// @param geometry  of yarns of the models slice and solid, or hair
-    /// @throws Error  InvalidArgument: sizes; Unsupported: nothing to draw, meshes, more slices than one
-    ///                buffer of the driver holds; as raster::place_slices
-    SliceView(const raster::Context& context, Geometry geometry, const ViewOptions& options);
+    /// @throws Error  Unsupported: nothing to draw, meshes; as raster::build_sections and place
+    SliceView(const raster::Context& context, Geometry geometry, const SliceOptions& options);
     ~SliceView();
+    SliceView(const SliceView&) = delete;
+    SliceView& operator=(const SliceView&) = delete;
 
-    /// @throws Error  InvalidArgument: a pose without direction; Device, OutOfMemory
-    [[nodiscard]] ViewImage draw(const ViewPose& pose, ViewTimes* times = nullptr) const;
+    /// Places the slices again: other radii, twists, colours or centrelines of the same kinds of yarn.
+    /// @throws Error  OutOfMemory, InvalidArgument: see raster::place_slices; what was there stays
+    void place(Geometry geometry);
+    /// Draws over what the target holds, within its limit. Slices are placed anew where
+    /// pixels have become four times as large or as small.
+    /// @param times  waited for and filled in where it is there
+    /// @throws Error  InvalidArgument: a direction without length; Device, OutOfMemory
+    void draw(const ViewTarget& target,
+              const CameraView& camera,
+              const SliceLook& look,
+              SliceTimes* times = nullptr);
+
     [[nodiscard]] std::int64_t slice_count() const;
+    [[nodiscard]] Ball ball() const; ///< around all yarns
+    /// Slices fill more than one chunk: they are not sorted but blended by weights.
+    [[nodiscard]] bool is_split() const;
 
 private:
     struct Scene;

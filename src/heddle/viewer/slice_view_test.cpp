@@ -26,9 +26,22 @@ Geometry cross_at(float red) {
     return heddle::test::geometry_of(set);
 }
 
-ViewOptions options_of(bool sorted, bool shadows) {
-    return {.width = kSize, .height = kSize, .sorted = sorted, .shadows = shadows};
+SliceLook look_of(bool sorted, bool shadows, Vec3d light = {0.0, 0.0, 1.0}) {
+    return {.light = light, .sorted = sorted, .shadows = shadows};
 }
+
+/// All of it from a side; rays are parallel where `view_angle` is 0.
+ViewImage picture(SliceView& view, Vec3d from, const SliceLook& look, double view_angle = 0.0) {
+    Orbit orbit{.from = from, .view_angle = view_angle};
+    orbit.frame(view.ball(), 1.0);
+    const ViewTarget target(kSize, kSize);
+    target.clear();
+    view.draw(target, orbit.camera(), look);
+    return target.image();
+}
+
+constexpr Vec3d kFront{0.0, 0.0, 1.0};
+constexpr Vec3d kBack{0.0, 0.0, -1.0};
 
 using Rgb = std::array<int, 3>;
 
@@ -43,45 +56,132 @@ bool is_red(Rgb p) {
 bool is_blue(Rgb p) {
     return p[2] > p[0] + 60;
 }
-constexpr ViewPose kFront{.from = {0.0, 0.0, 1.0}, .light = {0.0, 0.0, 1.0}};
-constexpr ViewPose kBack{.from = {0.0, 0.0, -1.0}, .light = {0.0, 0.0, 1.0}};
-
 TEST(SliceView, TheNearerYarnIsInFrontFromBothSidesOnlyWhenSorted) {
     const raster::Context context;
-    for (const bool sorted : {true, false}) {
-        const SliceView view(context, cross_at(0.3f), options_of(sorted, false));
-        const Rgb front = pixel(view.draw(kFront), kSize / 2, kSize / 2);
-        const Rgb back = pixel(view.draw(kBack), kSize / 2, kSize / 2);
-        EXPECT_TRUE(sorted ? is_red(front) : is_blue(front)) << sorted; // blue was placed last
-        EXPECT_TRUE(is_blue(back)) << sorted;
+    for (const double angle : {0.0, 0.6}) {
+        SliceView view(context, cross_at(0.3f), {});
+        SliceView behind(context, cross_at(-0.3f), {});
+        for (const bool sorted : {true, false}) {
+            const SliceLook look = look_of(sorted, false);
+            const Rgb front = pixel(picture(view, kFront, look, angle), kSize / 2, kSize / 2);
+            const Rgb back = pixel(picture(view, kBack, look, angle), kSize / 2, kSize / 2);
+            EXPECT_TRUE(sorted ? is_red(front) : is_blue(front)) << sorted; // blue was placed last
+            EXPECT_TRUE(is_blue(back)) << sorted;
+        }
+        const SliceLook look = look_of(true, false);
+        EXPECT_TRUE(is_blue(pixel(picture(behind, kFront, look, angle), kSize / 2, kSize / 2)));
+        EXPECT_TRUE(is_red(pixel(picture(behind, kBack, look, angle), kSize / 2, kSize / 2)));
     }
-    const SliceView behind(context, cross_at(-0.3f), options_of(true, false));
-    EXPECT_TRUE(is_blue(pixel(behind.draw(kFront), kSize / 2, kSize / 2)));
-    EXPECT_TRUE(is_red(pixel(behind.draw(kBack), kSize / 2, kSize / 2)));
+}
+
+TEST(SliceView, WeightsShowTheNearerYarnWithoutAnOrderAndOverManyChunks) {
+    const raster::Context context;
+    SliceView whole(context, cross_at(0.3f), {});
+    // one yarn a chunk: 64 bytes of each slice and 81 of it in view
+    SliceView split(context, cross_at(0.3f), {.memory_bytes = whole.slice_count() * 145 * 6 / 10});
+    EXPECT_FALSE(whole.is_split());
+    ASSERT_TRUE(split.is_split());
+    EXPECT_EQ(split.slice_count(), whole.slice_count());
+    SliceLook look = look_of(true, true);
+    look.weighted = true;
+    for (const Vec3d from : {kFront, kBack}) {
+        const ViewImage a = picture(whole, from, look);
+        const ViewImage b = picture(split, from, look);
+        EXPECT_EQ(a.rgb, picture(whole, from, look).rgb);
+        int far = 0;
+        for (std::size_t i = 0; i < a.rgb.size(); ++i)
+            far += std::abs(a.rgb[i] - b.rgb[i]) > 1 ? 1 : 0;
+        EXPECT_EQ(far, 0);
+        const Rgb middle = pixel(b, kSize / 2, kSize / 2);
+        EXPECT_TRUE(from.z > 0.0 ? is_red(middle) : is_blue(middle));
+    }
 }
 
 TEST(SliceView, IsWhiteBesideTheYarnsAndHasTheirWidth) {
     const raster::Context context;
-    const SliceView view(context, cross_at(0.3f), options_of(true, true));
-    const ViewImage image = view.draw(kFront);
+    SliceView view(context, cross_at(0.3f), {});
+    const ViewImage image = picture(view, kFront, look_of(true, true));
     EXPECT_EQ(pixel(image, 2, 2), (Rgb{255, 255, 255}));
     int covered = 0; // of a column that the red one alone crosses
     for (std::int32_t y = 0; y < kSize; ++y) {
         covered += pixel(image, kSize / 2 + 6, y)[2] < 200 ? 1 : 0;
     }
-    // .2 of a ball of diameter 2 x (half the diagonal of 3 x 3 x .3, and .15)
-    const double wide = 0.2 * kSize / (2.0 * (0.5 * std::sqrt(18.09) + 0.15));
-    EXPECT_NEAR(covered, wide, 2.0);
-    EXPECT_EQ(view.draw(kFront).rgb, image.rgb);
+    EXPECT_NEAR(covered, 0.2 * kSize / (2.0 * view.ball().radius), 2.0);
+    EXPECT_EQ(picture(view, kFront, look_of(true, true)).rgb, image.rgb);
+}
+
+TEST(SliceView, AFarEyeSeesWhatParallelRaysSee) {
+    const raster::Context context;
+    SliceView view(context, cross_at(0.3f), {});
+    constexpr Vec3d kAside{1.0, 0.4, 0.5};
+    const ViewImage near = picture(view, kAside, look_of(true, true), 2.5);
+    const ViewImage far = picture(view, kAside, look_of(true, true), 0.002);
+    const ViewImage parallel = picture(view, kAside, look_of(true, true));
+    const auto apart = [&](const ViewImage& a) {
+        int count = 0;
+        for (std::size_t i = 0; i < a.rgb.size(); ++i) {
+            count += std::abs(a.rgb[i] - parallel.rgb[i]) > 6 ? 1 : 0;
+        }
+        return count;
+    };
+    EXPECT_LT(apart(far), static_cast<int>(far.rgb.size() / 200));
+    EXPECT_GT(apart(near), static_cast<int>(far.rgb.size() / 100)) << "this test tells them apart";
+}
+
+TEST(SliceView, TheEyeMayStandInAYarnOrPastIt) {
+    const raster::Context context;
+    SliceView view(context, cross_at(0.3f), {});
+    const ViewTarget target(kSize, kSize);
+    for (const double z : {0.3, 0.35, 0.0}) {
+        CameraView camera{.eye = {-0.4, 0.0, z}, .target = {1.0, 0.0, z}, .up = {0.0, 0.0, 1.0}};
+        camera.view_angle = 1.0;
+        target.clear();
+        EXPECT_NO_THROW(view.draw(target, camera, look_of(true, true)));
+        const ViewImage image = target.image();
+        if (z == 0.3) {
+            EXPECT_NE(pixel(image, 5, 5), (Rgb{255, 255, 255})) << "inside of the red one";
+        }
+    }
+    target.clear(); // all lies behind
+    view.draw(target, {.eye = {0.0, 0.0, 5.0}, .target = {0.0, 0.0, 9.0}}, look_of(true, true));
+    for (const std::uint8_t c : target.image().rgb) ASSERT_EQ(c, 255);
+}
+
+TEST(SliceView, BandsMakeTheSamePictureAsOneDraw) {
+    const raster::Context context;
+    SliceView view(context, cross_at(0.3f), {});
+    SliceLook look = look_of(true, true);
+    for (const bool weighted : {false, true}) {
+        look.weighted = weighted;
+        const ViewImage whole = picture(view, kFront, look);
+        Orbit orbit{.from = kFront};
+        orbit.frame(view.ball(), 1.0);
+        const ViewTarget target(kSize, kSize);
+        target.clear();
+        for (std::int32_t y = 0; y < kSize; y += 24) {
+            target.limit(y, y + 24);
+            view.draw(target, orbit.camera(), look);
+        }
+        target.limit(0, kSize);
+        EXPECT_EQ(target.image().rgb, whole.rgb);
+    }
+}
+
+TEST(SliceView, PlacedAgainItShowsTheNewYarns) {
+    const raster::Context context;
+    SliceView view(context, cross_at(0.3f), {});
+    SliceView other(context, cross_at(-0.3f), {});
+    view.place(cross_at(-0.3f));
+    const SliceLook look = look_of(true, true);
+    EXPECT_EQ(picture(view, kFront, look).rgb, picture(other, kFront, look).rgb);
 }
 
 TEST(SliceView, ShadowsDarkenWhatLiesBehindAnotherYarnSeenFromTheLight) {
     const raster::Context context;
-    const ViewPose side{.from = {0.0, 0.0, 1.0}, .light = {0.0, 1.0, 1.0}};
-    const SliceView lit(context, cross_at(0.3f), options_of(true, false));
-    const SliceView shaded(context, cross_at(0.3f), options_of(true, true));
-    const ViewImage a = lit.draw(side);
-    const ViewImage b = shaded.draw(side);
+    SliceView view(context, cross_at(0.3f), {});
+    const Vec3d light{0.0, 1.0, 1.0};
+    const ViewImage a = picture(view, kFront, look_of(true, false, light));
+    const ViewImage b = picture(view, kFront, look_of(true, true, light));
     int darker = 0;
     int brighter = 0;
     for (std::size_t i = 0; i < a.rgb.size(); ++i) {
@@ -91,7 +191,7 @@ TEST(SliceView, ShadowsDarkenWhatLiesBehindAnotherYarnSeenFromTheLight) {
     EXPECT_GT(darker, 5);
     EXPECT_EQ(brighter, 0);
     // the light comes from above: the red yarn's shadow falls on the blue one below the crossing
-    const double scale = kSize / (2.0 * (0.5 * std::sqrt(18.09) + 0.15));
+    const double scale = kSize / (2.0 * view.ball().radius);
     const auto row = static_cast<std::int32_t>(kSize / 2.0 + 0.2 * scale);
     EXPECT_LT(pixel(b, kSize / 2, row)[2], pixel(a, kSize / 2, row)[2] - 8);
 }
@@ -106,10 +206,11 @@ TEST(SliceView, OcclusionDarkensASlicesInside) {
     geometry.yarns.push_back(make_slice(yarn, {.size = 64}).yarn);
     geometry.curves[0].yarn = 0;
     const raster::Context context;
-    ViewOptions options = options_of(true, false);
-    const ViewImage with = SliceView(context, geometry, options).draw(kFront);
-    options.occlusion = false;
-    const ViewImage without = SliceView(context, geometry, options).draw(kFront);
+    SliceView view(context, geometry, {});
+    SliceLook look = look_of(true, false);
+    const ViewImage with = picture(view, kFront, look);
+    look.occlusion = false;
+    const ViewImage without = picture(view, kFront, look);
     double sums[2]{};
     for (std::size_t i = 0; i < with.rgb.size(); ++i) {
         sums[0] += with.rgb[i];
@@ -118,24 +219,55 @@ TEST(SliceView, OcclusionDarkensASlicesInside) {
     EXPECT_LT(sums[0], sums[1]);
 }
 
+TEST(SliceView, DirectionsAreThoseOfTheYarnsInTheWorld) {
+    const raster::Context context;
+    SliceView view(context, cross_at(0.3f), {});
+    SliceLook look = look_of(true, false);
+    look.color = SliceColor::Direction;
+    const ViewImage image = picture(view, {0.2, 0.1, 1.0}, look);
+    const Rgb along_x = pixel(image, kSize / 2 + 8, kSize / 2 - 1);
+    EXPECT_GT(along_x[0], 250);
+    EXPECT_LT(along_x[1], 40);
+}
+
 TEST(SliceView, WhatCannotBeShownIsOneLine) {
     const raster::Context context;
-    const auto code = [&](Geometry geometry, ViewOptions options) {
+    const auto code = [](auto&& run) {
         try {
-            const SliceView view(context, std::move(geometry), options);
+            run();
         } catch (const Error& e) {
             return e.code();
         }
         return ErrorCode::Internal;
     };
-    EXPECT_EQ(code(generate({.kind = GenerateKind::Grass, .nx = 2, .ny = 2}), {}),
-              ErrorCode::Unsupported);
-    EXPECT_EQ(code({}, {}), ErrorCode::Unsupported);
-    EXPECT_EQ(code(cross_at(0.3f), {.width = 0}), ErrorCode::InvalidArgument);
-    EXPECT_EQ(code(cross_at(0.3f), {.width = 9000}), ErrorCode::InvalidArgument);
-    const SliceView view(context, cross_at(0.3f), options_of(true, true));
-    EXPECT_THROW((void)view.draw({.from = {}}), Error);
-    EXPECT_NO_THROW((void)view.draw({.from = {0.0, 1.0, 0.0}})); // along `up`
+    const auto grass = generate({.kind = GenerateKind::Grass, .nx = 2, .ny = 2});
+    EXPECT_EQ(code([&] { SliceView(context, grass, {}); }), ErrorCode::Unsupported);
+    EXPECT_EQ(code([&] { SliceView(context, {}, {}); }), ErrorCode::Unsupported);
+    EXPECT_EQ(code([] { ViewTarget(0, 5); }), ErrorCode::InvalidArgument);
+    EXPECT_EQ(code([] { ViewTarget(9000, 5); }), ErrorCode::InvalidArgument);
+    SliceView view(context, cross_at(0.3f), {});
+    const auto draw = [&](Vec3d from, const SliceLook& look) {
+        return code([&] { (void)picture(view, from, look); });
+    };
+    EXPECT_EQ(draw({}, {}), ErrorCode::InvalidArgument);
+    EXPECT_EQ(draw(kFront, {.light = {}}), ErrorCode::InvalidArgument);
+    EXPECT_EQ(draw(kFront, {.opacity = 0.0}), ErrorCode::InvalidArgument);
+    EXPECT_EQ(draw(kFront, {.map_size = 4}), ErrorCode::InvalidArgument);
+    EXPECT_NO_THROW((void)picture(view, {0.0, 1.0, 0.0}, {})); // along `up`
+}
+
+TEST(SliceView, ATwistThatNoPixelShowsIsManySlicesNotAnError) {
+    YarnType yarn;
+    yarn.model = YarnModel::Procedural;
+    yarn.radius = 0.1f;
+    Geometry geometry = cross_at(0.3f);
+    geometry.yarns.push_back(make_slice(yarn, {.size = 32}).yarn);
+    geometry.curves[0].yarn = 0;
+    const raster::Context context;
+    geometry.yarns[0].twist = 1e9f;
+    EXPECT_THROW(SliceView(context, geometry, {}), Error);
+    geometry.yarns[0].twist = 60.0f;
+    EXPECT_GT(SliceView(context, geometry, {}).slice_count(), 1000);
 }
 
 } // namespace

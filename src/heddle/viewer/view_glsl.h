@@ -4,18 +4,18 @@
 
 namespace heddle::viewer {
 
-/// GLSL: slices seen from a direction: x and y in pixels, z away from the eye; a key by depth. One
-/// slice an item. `turn` has the view's axes as rows.
+/// GLSL: slices in the eye's axes, z away from it; a key by depth. One slice an item.
 inline constexpr std::string_view kSeeGlsl = R"(
 layout(std430, binding = 0) readonly buffer Placed { Slice placed[]; };
 layout(std430, binding = 1) writeonly buffer Seen { Slice seen[]; };
 layout(std430, binding = 2) writeonly buffer Keys { uint keys[]; };
 layout(std430, binding = 3) writeonly buffer Numbers { uint numbers[]; };
 uniform uint slice_count;
+uniform uint capacity; // keys; those past the slices come last
 uniform vec3 right, up, away;
-uniform vec3 middle; // of the picture, where slices were placed
-uniform vec3 shift;  // where it goes, pixels
-uniform float zoom;  // pixels a unit
+uniform vec3 middle;  // a place near to what is seen, where slices were placed
+uniform vec3 shift;   // of the middle, from the eye, in its axes
+uniform int parallel; // rays
 uniform int sorted;
 
 vec3 turned(vec3 v) { return vec3(dot(right, v), dot(up, v), dot(away, v)); }
@@ -28,33 +28,98 @@ uint key_of(float depth) {
 }
 
 void main() {
+    if (item() >= capacity) return;
+    numbers[item()] = item();
+    keys[item()] = 0xffffffffu;
     if (item() >= slice_count) return;
     Slice s = placed[item()];
     bool slab = (s.flags & kLastOfYarn) == 0u && item() + 1u < slice_count;
     vec3 center = s.center;
     if (slab) center = 0.5 * (s.center + placed[item() + 1u].center);
-    keys[item()] = !slab ? 0xffffffffu : sorted == 0 ? 0u : key_of(dot(away, center - middle));
-    numbers[item()] = item();
-    s.center = turned(s.center - middle) * zoom + shift;
+    center = turned(center - middle) + shift;
+    float depth = parallel == 1 ? center.z : length(center);
+    if (slab) keys[item()] = sorted == 0 ? 0u : key_of(depth);
+    s.center = turned(s.center - middle) + shift;
     s.tangent = turned(s.tangent);
     s.normal = turned(s.normal);
-    s.scale *= zoom;
     seen[item()] = s;
 }
 )";
 
-/// GLSL, fragment: what a slab hides of a pixel. Needs kSlabGlsl.
+/// GLSL: the ray of a pixel, in the eye's axes.
+inline constexpr std::string_view kEyeGlsl = R"(
+uniform vec3 screen;  // width and height, pixels; width of a pixel: units; not parallel: at distance 1
+uniform int parallel; // rays
+
+vec3 ray_from(vec2 at) { return parallel == 1 ? vec3((at - 0.5 * screen.xy) * screen.z, 0.0) : vec3(0.0); }
+
+vec3 ray_way(vec2 at) {
+    return parallel == 1 ? vec3(0.0, 0.0, 1.0) : normalize(vec3((at - 0.5 * screen.xy) * screen.z, 1.0));
+}
+
+float pixel_width(float t) { return parallel == 1 ? screen.z : screen.z * t; }
+)";
+
+/// GLSL, vertex: a slab as a quad across the way to its middle that holds it. Needs kStretchGlsl.
+inline constexpr std::string_view kSeenQuadGlsl = R"(
+void main() {
+    Stretch s = give_stretch();
+    vec3 middle = 0.5 * (s.a.center + s.b.center);
+    float away = length(middle);
+    vec3 toward = parallel == 1 || away == 0.0 ? vec3(0.0, 0.0, 1.0) : middle / away;
+    float bend = length(s.b.tangent - s.a.tangent);
+    float half_long = half_length(s.a, s.b, s.reach);
+    float far = length(vec2(s.reach, half_long)) + 0.01;
+    if (parallel == 0 && middle.z < -far) { // behind the eye
+        gl_Position = vec4(2.0, 2.0, 0.0, 1.0);
+        return;
+    }
+    if (parallel == 0 && away < 1.05 * far) { // around the eye
+        gl_Position = vec4(corner(), 0.0, 1.0);
+        return;
+    }
+    vec3 side = s.along - dot(s.along, toward) * toward;
+    float tilt = length(side);
+    vec3 e = tilt > 1e-6 ? side / tilt : any_across(toward);
+    vec3 d = cross(toward, e);
+    // a disc seen at a slant is an ellipse with these two axes; what is nearer looks larger
+    float grow = parallel == 1 ? 1.0 : away / (away - far);
+    float pad = 0.75 * pixel_width(away);
+    float half_e = grow * (s.reach * abs(dot(s.along, toward)) + half_long * tilt) + pad;
+    float half_d = grow * (s.reach + half_long * bend) + pad;
+    vec3 at = middle + corner().x * half_e * e + corner().y * half_d * d;
+    gl_Position = vec4(2.0 * at.xy / (screen.z * screen.xy), 0.0, parallel == 1 ? 1.0 : at.z);
+}
+)";
+
+/// GLSL, vertex: a unit vector at right angles to one.                               [Duff 2017]
+inline constexpr std::string_view kAcrossGlsl = R"(
+vec3 any_across(vec3 n) {
+    float s = n.z < 0.0 ? -1.0 : 1.0;
+    float a = -1.0 / (s + n.z);
+    return vec3(1.0 + s * n.x * n.x * a, s * n.x * n.y * a, -s * n.x);
+}
+)";
+
+/// GLSL, fragment: what a slab hides of a pixel. Needs kSlabGlsl and kEyeGlsl.
 inline constexpr std::string_view kOpacityGlsl = R"(
 layout(binding = 2) uniform sampler2DArray section_light;
 uniform float section_size; // texels
 uniform float opacity;      // multiplies what a texel hides
 
+// The pixel's ray between the two slices, before the eye.
+vec2 start_pixel() {
+    start(ray_from(gl_FragCoord.xy), ray_way(gl_FragCoord.xy));
+    vec2 range = range_of_slab();
+    return parallel == 1 ? range : max(range, vec2(0.0));
+}
+
 // Passes the slab in steps of a texel as large as a pixel, or larger; a step hides what its texel does.
-struct Look { float depth; vec3 color; vec3 direction; float light; float z; };
+struct Look { float depth; vec3 color; vec3 direction; float light; float t; };
 
 Look look_through(vec2 range) {
-    float texel = 2.0 * sizes.x * place_a.w / section_size; // pixels
-    float level = max(0.0, -log2(max(texel, 1e-6)));
+    float texel = 2.0 * sizes.x * place_a.w / section_size; // units
+    float level = max(0.0, log2(pixel_width(0.5 * (range.x + range.y)) / max(texel, 1e-12)));
     float size = texel * exp2(level);
     int steps = clamp(int(ceil((range.y - range.x) / size)), 1, 48);
     float dt = (range.y - range.x) / float(steps);
@@ -70,77 +135,113 @@ Look look_through(vec2 range) {
         sum.color += weight * texel_here.rgb * unpackUnorm4x8(uint(normal_b.w)).rgb;
         sum.light += weight * textureLod(section_light, layer_place(l.at), level).r;
         sum.direction += weight * direction_of(l);
-        sum.z += weight * t;
+        sum.t += weight * t;
     }
     float total = max(1.0 - exp(-sum.depth), 1e-6);
-    return Look(sum.depth, sum.color / total, sum.direction, sum.light / total, sum.z / total);
+    return Look(sum.depth, sum.color / total, sum.direction, sum.light / total, sum.t / total);
 }
+)";
 
-uint shadow_bits(float depth) { return uint(clamp(depth * 1024.0 + 4194304.0, 0.0, 8388608.0)); }
+/// GLSL, fragment: how far along its ray a place lies, as 24 bits.
+inline constexpr std::string_view kDepthGlsl = R"(
+uniform float depth_scale; // of a unit
+uniform float depth_shift;
+
+uint depth_bits(float t) { return uint(clamp((t - depth_shift) * depth_scale, 0.0, 16777215.0)); }
 )";
 
 /// GLSL, fragment: the depth at which a slab has hidden half of the light.
-inline constexpr std::string_view kShadowGlsl = R"(
-layout(std430, binding = 4) buffer Shadow { uint shadow[]; };
-uniform int shadow_size;
+inline constexpr std::string_view kNearestGlsl = R"(
+layout(std430, binding = 4) buffer Nearest { uint nearest_bits[]; };
 
 void main() {
-    ivec2 pixel = pixel_of(gl_FragCoord.xy);
-    start(pixel);
-    vec2 range = range_of_slab();
+    vec2 range = start_pixel();
     if (!(range.x < range.y)) return;
     Look look = look_through(range);
     if (look.depth < 0.69) return;
-    atomicMin(shadow[uint(pixel.y * shadow_size + pixel.x)], shadow_bits(look.z));
+    uvec2 at = uvec2(gl_FragCoord.xy);
+    atomicMin(nearest_bits[at.y * uint(screen.x) + at.x], depth_bits(look.t));
 }
 )";
 
-/// GLSL, fragment: a slab's colour over what lies behind it: Kajiya and Kay's model of a thread under
-/// one distant light, the shadow map, and the section's occlusion.
+/// GLSL, fragment: a slab's colour: Kajiya and Kay's model of a thread under one distant light, the
+/// shadow map, and the section's occlusion.                                        [LopezMoreno17, 4.2]
 inline constexpr std::string_view kShadeGlsl = R"(
 layout(std430, binding = 4) readonly buffer Shadow { uint shadow[]; };
-layout(location = 0) out vec4 result; // linear, times alpha
-uniform vec3 to_light;                // in the view's axes
-uniform vec3 light_right, light_up, light_away; // of the shadow map, in the view's axes
-uniform vec3 light_shift;
-uniform vec3 view_middle;
-uniform int shadow_size; // 0: none
+uniform vec3 to_light;                          // in the eye's axes
+uniform vec3 light_right, light_up, light_away; // of the shadow map's pixels, in the eye's axes
+uniform vec3 light_middle;                      // of the map, in the eye's axes
+uniform float light_pixel;                      // units
+uniform int shadow_size;                        // 0: none
 uniform int occlusion;
+uniform int color_mode;                         // 0 shaded, 1 the fiber's direction
+uniform vec3 world_x, world_y, world_z;         // in the eye's axes
 
-float lit(vec3 at, float bias) {
+float lit(vec3 at) {
     if (shadow_size == 0) return 1.0;
-    vec3 d = at - view_middle;
-    vec3 p = vec3(dot(light_right, d), dot(light_up, d), dot(light_away, d)) + light_shift;
+    vec3 d = at - light_middle;
+    vec2 p = vec2(dot(light_right, d), dot(light_up, d)) + 0.5 * float(shadow_size);
+    float bias = 0.7 * sizes.z + 1.5 * light_pixel;
+    uint depth = depth_bits(dot(light_away, d) - bias);
     float sum = 0.0;
     for (int y = -1; y <= 1; ++y) {
         for (int x = -1; x <= 1; ++x) {
-            ivec2 q = clamp(ivec2(floor(p.xy)) + ivec2(x, y), ivec2(0), ivec2(shadow_size - 1));
-            uint nearest = shadow[uint(q.y * shadow_size + q.x)];
-            sum += shadow_bits(p.z - bias) <= nearest ? 1.0 : 0.0;
+            ivec2 q = clamp(ivec2(floor(p)) + ivec2(x, y), ivec2(0), ivec2(shadow_size - 1));
+            sum += depth <= shadow[uint(q.y * shadow_size + q.x)] ? 1.0 : 0.0;
         }
     }
     return sum / 9.0;
 }
 
-void main() {
-    ivec2 pixel = pixel_of(gl_FragCoord.xy);
-    start(pixel);
-    vec2 range = range_of_slab();
-    if (!(range.x < range.y)) discard;
-    Look look = look_through(range);
-    if (look.depth < 1e-4) discard;
+vec3 shade(Look look) {
     vec3 t = normalize(look.direction);
+    if (color_mode == 1) {
+        vec3 w = vec3(dot(world_x, t), dot(world_y, t), dot(world_z, t));
+        return w * w;
+    }
     float along_light = dot(t, to_light);
-    float along_eye = -t.z;
+    float along_eye = -dot(t, way);
     float across_light = sqrt(max(0.0, 1.0 - along_light * along_light));
     float across_eye = sqrt(max(0.0, 1.0 - along_eye * along_eye));
     float shine = pow(max(0.0, across_light * across_eye - along_light * along_eye), 24.0);
     float open = occlusion == 0 ? 1.0 : look.light;
-    float direct = lit(vec3(vec2(pixel) + 0.5, look.z), 0.7 * sizes.z * length(light_away) + 1.5);
-    vec3 color = look.color * (0.25 * open + 0.75 * direct * across_light * mix(1.0, open, 0.5)) +
-                 vec3(0.12 * direct * shine);
+    float direct = lit(ray + look.t * way);
+    return look.color * (0.25 * open + 0.75 * direct * across_light * mix(1.0, open, 0.5)) +
+           vec3(0.12 * direct * shine);
+}
+)";
+
+/// GLSL, fragment: over what lies behind it.
+inline constexpr std::string_view kOverGlsl = R"(
+layout(location = 0) out vec4 result; // linear, times alpha
+
+void main() {
+    vec2 range = start_pixel();
+    if (!(range.x < range.y)) discard;
+    Look look = look_through(range);
+    if (look.depth < 1e-4) discard;
     float alpha = 1.0 - exp(-look.depth);
-    result = vec4(color * alpha, alpha);
+    result = vec4(shade(look) * alpha, alpha);
+}
+)";
+
+/// GLSL, fragment: for WeightedBlend: what lies behind the first half of what hides weighs little.
+inline constexpr std::string_view kWeighGlsl = R"(
+layout(std430, binding = 5) readonly buffer Nearest { uint nearest_bits[]; };
+layout(location = 0) out vec4 sums;
+layout(location = 1) out float hides;
+uniform float eye_scale, eye_shift; // of the nearest depths, as depth_scale and depth_shift
+
+void main() {
+    vec2 range = start_pixel();
+    if (!(range.x < range.y)) discard;
+    Look look = look_through(range);
+    if (look.depth < 1e-4) discard;
+    uvec2 at = uvec2(gl_FragCoord.xy);
+    float first = float(nearest_bits[at.y * uint(screen.x) + at.x]) / eye_scale + eye_shift;
+    float weight = max(exp(-4.0 * max(look.t - first, 0.0) / sizes.z), 1e-5);
+    hides = 1.0 - exp(-look.depth);
+    sums = vec4(shade(look), 1.0) * (hides * weight);
 }
 )";
 

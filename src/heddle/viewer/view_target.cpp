@@ -1,58 +1,70 @@
 #include <heddle/viewer/view_target.h>
 
 #include <heddle/base/error.h>
-#include <heddle/geom/slice_image.h>
 
 #include <epoxy/gl.h>
 
-#include <bit>
+#include <algorithm>
+#include <cmath>
 
 namespace heddle::viewer {
 namespace {
 
-void check_room(const char* what) {
-    if (glGetError() == GL_NO_ERROR) return;
-    throw Error(ErrorCode::OutOfMemory, str("opengl: the driver has no room for ", what),
-                "use a smaller picture, or fewer kinds of yarn");
-}
+constexpr std::int32_t kMost = 8192;
 
-GLuint make_array(GLenum format, std::int32_t size, std::size_t layers, GLsizei levels) {
-    GLuint id = 0;
-    glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &id);
-    glTextureStorage3D(id, levels, format, size, size, static_cast<GLsizei>(layers));
-    glTextureParameteri(id, GL_TEXTURE_MIN_FILTER,
-                        levels > 1 ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);
-    glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glTextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    return id;
+std::uint8_t to_srgb(float linear) {
+    const double x = std::clamp(static_cast<double>(linear), 0.0, 1.0);
+    const double s = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
+    return static_cast<std::uint8_t>(255.0 * s + 0.5);
 }
 
 } // namespace
 
 ViewTarget::ViewTarget(std::int32_t width, std::int32_t height) : width_(width), height_(height) {
-    glCreateRenderbuffers(1, &color_);
-    glNamedRenderbufferStorage(color_, GL_RGBA32F, width, height);
+    if (width < 1 || height < 1 || width > kMost || height > kMost) {
+        throw Error(ErrorCode::InvalidArgument, str("view: ", width, " x ", height, " pixels"),
+                    "use 1 to 8192 pixels");
+    }
+    glCreateTextures(GL_TEXTURE_2D, 1, &color_);
+    glTextureStorage2D(color_, 1, GL_RGBA32F, width, height);
+    glTextureParameteri(color_, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(color_, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     glCreateFramebuffers(1, &frame_);
-    glNamedFramebufferRenderbuffer(frame_, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color_);
+    glNamedFramebufferTexture(frame_, GL_COLOR_ATTACHMENT0, color_, 0);
     glCreateVertexArrays(1, &vertices_);
-    check_room("the picture");
+    if (glGetError() != GL_NO_ERROR) {
+        throw Error(ErrorCode::OutOfMemory,
+                    str("opengl: the driver has no room for ", width, " x ", height, " pixels"),
+                    "use a smaller picture");
+    }
 }
 
 ViewTarget::~ViewTarget() {
     glDeleteFramebuffers(1, &frame_);
-    glDeleteRenderbuffers(1, &color_);
+    glDeleteTextures(1, &color_);
     glDeleteVertexArrays(1, &vertices_);
 }
 
+void ViewTarget::limit(std::int32_t first, std::int32_t end) const {
+    glScissor(0, first, width_, end - first);
+    if (first <= 0 && end >= height_)
+        glDisable(GL_SCISSOR_TEST);
+    else
+        glEnable(GL_SCISSOR_TEST);
+}
+
+void ViewTarget::clear() const {
+    const GLfloat none[4]{};
+    glClearNamedFramebufferfv(frame_, GL_COLOR, 0, none);
+}
+
 void ViewTarget::begin() const {
-    const GLfloat clear[4]{};
-    glClearNamedFramebufferfv(frame_, GL_COLOR, 0, clear);
     glBindFramebuffer(GL_FRAMEBUFFER, frame_);
     glBindVertexArray(vertices_);
     glViewport(0, 0, width_, height_);
     glDisable(GL_DEPTH_TEST);
     glEnable(GL_BLEND);
+    glBlendEquation(GL_FUNC_ADD);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
 }
 
@@ -65,49 +77,24 @@ std::vector<float> ViewTarget::read() const {
                            static_cast<std::size_t>(height_));
     glBindFramebuffer(GL_READ_FRAMEBUFFER, frame_);
     glReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, out.data());
-    glDisable(GL_BLEND);
     return out;
 }
 
-ViewSections::ViewSections(const raster::SectionLayers& sections,
-                           const std::vector<std::vector<std::uint8_t>>& light) {
-    const std::int32_t n = sections.size;
-    const auto levels = static_cast<GLsizei>(std::bit_width(static_cast<std::uint32_t>(n)));
-    color_ = make_array(GL_RGBA8, n, sections.layers.size(), levels);
-    light_ = make_array(GL_R8, n, sections.layers.size(), 1);
-    check_room("the sections");
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    for (std::size_t i = 0; i < sections.layers.size(); ++i) {
-        const auto at = static_cast<GLint>(i);
-        Texture image;
-        image.width = n;
-        image.height = n;
-        image.channels = 4;
-        image.texels = sections.layers[i].color;
-        GLint level = 0;
-        for (const Texture& t : shrink_slice(image)) {
-            const std::int32_t size =
-                std::max(n >> level, 1); // odd sizes: the last row is left out
-            if (level >= levels) break;
-            glPixelStorei(GL_UNPACK_ROW_LENGTH, t.width);
-            glTextureSubImage3D(color_, level, 0, 0, at, size, size, 1, GL_RGBA, GL_UNSIGNED_BYTE,
-                                t.texels.data());
-            ++level;
-        }
-        glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
-        glTextureSubImage3D(light_, 0, 0, 0, at, n, n, 1, GL_RED, GL_UNSIGNED_BYTE,
-                            light[i].data());
+ViewImage ViewTarget::image() const {
+    const std::vector<float> rgba = read();
+    ViewImage out{width_, height_, {}};
+    const auto width = static_cast<std::size_t>(width_);
+    const auto height = static_cast<std::size_t>(height_);
+    out.rgb.resize(3 * width * height);
+    for (std::size_t i = 0; i < width * height; ++i) {
+        const float* from = &rgba[4 * ((height - 1 - i / width) * width + i % width)];
+        for (std::size_t c = 0; c < 3; ++c) out.rgb[3 * i + c] = to_srgb(from[c] + 1.0f - from[3]);
     }
+    return out;
 }
 
-ViewSections::~ViewSections() {
-    glDeleteTextures(1, &color_);
-    glDeleteTextures(1, &light_);
-}
-
-void ViewSections::bind() const {
-    glBindTextureUnit(1, color_);
-    glBindTextureUnit(2, light_);
+void ViewTarget::bind_color(std::uint32_t unit) const {
+    glBindTextureUnit(unit, color_);
 }
 
 } // namespace heddle::viewer
