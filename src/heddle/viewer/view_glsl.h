@@ -114,31 +114,57 @@ vec2 start_pixel() {
     return parallel == 1 ? range : max(range, vec2(0.0));
 }
 
-// Passes the slab in steps of a texel as large as a pixel, or larger; a step hides what its texel does.
-struct Look { float depth; vec3 color; vec3 direction; float light; float t; };
+// Steps through the slab of a texel as large as a pixel, or larger; a step hides what its texel does.
+struct Steps { int count; float dt; float level; float strength; };
 
-Look look_through(vec2 range) {
+Steps steps_through(vec2 range) {
     float texel = 2.0 * sizes.x * place_a.w / section_size; // units
     float level = max(0.0, log2(pixel_width(0.5 * (range.x + range.y)) / max(texel, 1e-12)));
     float size = texel * exp2(level);
-    int steps = clamp(int(ceil((range.y - range.x) / size)), 1, 48);
-    float dt = (range.y - range.x) / float(steps);
+    int count = clamp(int(ceil((range.y - range.x) / size)), 1, 48);
+    float dt = (range.y - range.x) / float(count);
+    return Steps(count, dt, level, opacity * dt / size);
+}
+
+float hidden_by(float alpha, Steps steps) { return -log(1.0 - min(alpha, 0.996)) * steps.strength; }
+
+struct Look { float depth; vec3 color; vec3 direction; float light; float t; };
+
+const float kOpaque = 7.0; // 1/1000 is left
+
+Look look_through(vec2 range) {
+    Steps steps = steps_through(range);
     Look sum = Look(0.0, vec3(0.0), vec3(0.0), 0.0, 0.0);
-    for (int i = 0; i < steps; ++i) {
-        float t = range.x + (float(i) + 0.5) * dt;
+    for (int i = 0; i < steps.count && sum.depth < kOpaque; ++i) {
+        float t = range.x + (float(i) + 0.5) * steps.dt;
         Local l = local_at(t);
         if (max(abs(l.at.x), abs(l.at.y)) > sizes.x) continue;
-        vec4 texel_here = textureLod(section_color, layer_place(l.at), level);
-        float hidden = -log(1.0 - min(texel_here.a, 0.996)) * opacity * dt / size;
+        vec4 here = textureLod(section_color, layer_place(l.at), steps.level);
+        float hidden = hidden_by(here.a, steps);
         float weight = (1.0 - exp(-hidden)) * exp(-sum.depth);
         sum.depth += hidden;
-        sum.color += weight * texel_here.rgb * unpackUnorm4x8(uint(normal_b.w)).rgb;
-        sum.light += weight * textureLod(section_light, layer_place(l.at), level).r;
+        sum.color += weight * here.rgb * unpackUnorm4x8(uint(normal_b.w)).rgb;
+        sum.light += weight * textureLod(section_light, layer_place(l.at), steps.level).r;
         sum.direction += weight * direction_of(l);
         sum.t += weight * t;
     }
     float total = max(1.0 - exp(-sum.depth), 1e-6);
     return Look(sum.depth, sum.color / total, sum.direction, sum.light / total, sum.t / total);
+}
+
+// Where half of what lies behind is hidden; the range's end where it is not.
+float half_hidden(vec2 range) {
+    Steps steps = steps_through(range);
+    float depth = 0.0;
+    float t = range.x;
+    for (int i = 0; i < steps.count; ++i) {
+        t = range.x + (float(i) + 0.5) * steps.dt;
+        Local l = local_at(t);
+        if (max(abs(l.at.x), abs(l.at.y)) > sizes.x) continue;
+        depth += hidden_by(textureLod(section_color, layer_place(l.at), steps.level).a, steps);
+        if (depth >= 0.69) return t;
+    }
+    return range.y;
 }
 )";
 
@@ -157,10 +183,10 @@ layout(std430, binding = 4) buffer Nearest { uint nearest_bits[]; };
 void main() {
     vec2 range = start_pixel();
     if (!(range.x < range.y)) return;
-    Look look = look_through(range);
-    if (look.depth < 0.69) return;
+    float t = half_hidden(range);
+    if (t >= range.y) return;
     uvec2 at = uvec2(gl_FragCoord.xy);
-    atomicMin(nearest_bits[at.y * uint(screen.x) + at.x], depth_bits(look.t));
+    atomicMin(nearest_bits[at.y * uint(screen.x) + at.x], depth_bits(t));
 }
 )";
 
