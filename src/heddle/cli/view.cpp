@@ -8,6 +8,7 @@
 #include <heddle/raster/voxelize_slices.h>
 #include <heddle/viewer/orbit.h>
 #include <heddle/viewer/slice_view.h>
+#include <heddle/window/window.h>
 
 #include <cmath>
 #include <filesystem>
@@ -34,6 +35,11 @@ viewer::SliceLook look_of(const Arguments& arguments) {
             .opacity = arguments.number("opacity"),
             .color = arguments.text("color") == "direction" ? viewer::SliceColor::Direction
                                                             : viewer::SliceColor::Shaded};
+}
+
+viewer::SliceOptions slice_options(const Arguments& arguments) {
+    return {.memory_bytes = arguments.given("memory") ? arguments.bytes("memory") : 0,
+            .seed = static_cast<std::uint64_t>(arguments.integer("seed"))};
 }
 
 Vec3d axis_of(const std::string& name) {
@@ -75,6 +81,7 @@ void draw_frames(viewer::SliceView& view,
                                     static_cast<std::int32_t>(size[1]));
     const std::int64_t frames = arguments.integer("frames");
     viewer::Orbit orbit = orbit_of(arguments, view.ball(), size[0] / size[1]);
+    view.fit(orbit.pixel(target.height()));
     viewer::SliceTimes sum;
     bar.begin("draw", "frames", frames);
     for (std::int64_t f = 0; f < frames; ++f) {
@@ -101,24 +108,63 @@ void draw_frames(viewer::SliceView& view,
     report.seconds("draw a frame", sum.draw * each);
 }
 
-void run_view(const Arguments& arguments, Report& report, ProgressBar& bar) {
-    bar.begin("read", "files", 1);
-    Geometry geometry = load_geometry(arguments.text("FILE"), arguments);
-    apply_model(geometry, arguments);
-    const viewer::SliceOptions options{
-        .memory_bytes = arguments.given("memory") ? arguments.bytes("memory") : 0,
-        .seed = static_cast<std::uint64_t>(arguments.integer("seed"))};
-    for (std::string& note : raster::make_slices_of_yarns(geometry, options.seed)) {
-        geometry.notes.push_back(std::move(note));
-    }
-    for (const std::string& note : geometry.notes) report.note(note);
+void draw_headless(Geometry geometry,
+                   const Arguments& arguments,
+                   Report& report,
+                   ProgressBar& bar) {
     make_folder(arguments.text("output"));
     bar.begin("place slices", "files", 1);
     const raster::Context context;
-    viewer::SliceView view(context, std::move(geometry), options);
+    viewer::SliceView view(context, std::move(geometry), slice_options(arguments));
     report.text("output", arguments.text("output"));
     report.text("driver", context.driver());
     draw_frames(view, arguments, report, bar);
+}
+
+void open_window(Geometry geometry, const Arguments& arguments, Report& report, ProgressBar& bar) {
+    const std::vector<double> size = arguments.numbers("size", 'x');
+    window::Subject subject;
+    subject.name = std::filesystem::path(arguments.text("FILE")).stem().string();
+    subject.geometry = std::move(geometry);
+    subject.seed = slice_options(arguments).seed;
+    subject.memory_bytes = slice_options(arguments).memory_bytes;
+    subject.folder = arguments.given("output") ? arguments.text("output") : ".";
+    make_folder(subject.folder);
+    window::Settings settings;
+    settings.orbit = orbit_of(arguments, {.radius = 1.0}, size[0] / size[1]);
+    settings.framed = true;
+    settings.slices = look_of(arguments);
+    bar.finish(); // its line would stay over the window's life
+    const window::WindowCounts counts = window::run_window(
+        subject, settings,
+        {.width = static_cast<std::int32_t>(size[0]), .height = static_cast<std::int32_t>(size[1])},
+        bar);
+    report.text("driver", counts.driver);
+    report.count("inputs shown", counts.inputs);
+    report.number("median answer", counts.median_ms, "ms");
+    report.number("slowest answer", counts.worst_ms, "ms");
+}
+
+void run_view(const Arguments& arguments, Report& report, ProgressBar& bar) {
+    const bool headless = arguments.given("headless");
+    if (headless && !arguments.given("output")) {
+        throw UsageError("--headless needs a folder for its pictures: -o DIR");
+    }
+    if (!headless && arguments.given("frames")) {
+        throw UsageError("--frames is of no use here: it needs --headless");
+    }
+    bar.begin("read", "files", 1);
+    Geometry geometry = load_geometry(arguments.text("FILE"), arguments);
+    apply_model(geometry, arguments);
+    const auto seed = static_cast<std::uint64_t>(arguments.integer("seed"));
+    for (std::string& note : raster::make_slices_of_yarns(geometry, seed)) {
+        geometry.notes.push_back(std::move(note));
+    }
+    for (const std::string& note : geometry.notes) report.note(note);
+    if (headless)
+        draw_headless(std::move(geometry), arguments, report, bar);
+    else
+        open_window(std::move(geometry), arguments, report, bar);
     bar.finish();
     for (const auto& [stage, seconds] : bar.stages()) report.seconds(stage, seconds);
 }
@@ -129,10 +175,11 @@ Command view_command() {
     constexpr double kInf = std::numeric_limits<double>::infinity();
     std::vector<Option> options{
         {"FILE", "", "", any_text(), "", "curves: .bcc .hair .data .pyp", true},
-        {"--headless", "", "", flag(), "", "into pictures: there is no window yet", true},
-        {"-o, --output", "DIR", "", any_text(), "", "folder of the pictures, frame_0000.png on",
-         true},
-        {"--frames", "N", "1", integer(1, 10000), "pictures", "once around the object"},
+        {"-o, --output", "DIR", "(here)", any_text(), "",
+         "where the window saves; with --headless: folder of the pictures, frame_0000.png on"},
+        {"--headless", "", "", flag(), "", "pictures, without a window or a display"},
+        {"--frames", "N", "1", integer(1, 10000), "pictures",
+         "with --headless: once around the object"},
     };
     for (const std::vector<Option>& more : {load_options(), model_options()}) {
         for (const Option& row : more) {
@@ -164,7 +211,8 @@ Command view_command() {
         {"--no-occlusion", "", "", flag(), "", "leaves out what fibers hide in their section"},
     };
     options.insert(options.end(), more.begin(), more.end());
-    return {"view", "pictures of yarns as shaded slices, by OpenGL", options, run_view};
+    return {"view", "a window on yarns as shaded slices, by OpenGL; or pictures of them", options,
+            run_view};
 }
 
 } // namespace heddle::cli

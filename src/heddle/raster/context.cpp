@@ -108,6 +108,29 @@ Context::Context(const ContextOptions& options) : handles_(std::make_unique<Hand
         fail(str("no driver gives OpenGL ", options.major, ".", options.minor,
                  " (core) without a window"));
     }
+    read_limits();
+}
+
+Context::Context(OfWindow, const ContextOptions& options) {
+    require_libraries();
+    GLint major = 0;
+    GLint minor = 0;
+    if (glGetString(GL_VERSION) != nullptr) {
+        glGetIntegerv(GL_MAJOR_VERSION, &major);
+        glGetIntegerv(GL_MINOR_VERSION, &minor);
+    }
+    if (major < options.major || (major == options.major && minor < options.minor)) {
+        fail(str("the window's driver gives OpenGL ", major, ".", minor, ", ", options.major, ".",
+                 options.minor, " is needed"));
+    }
+    read_limits();
+}
+
+std::unique_ptr<Context> Context::of_window(const ContextOptions& options) {
+    return std::unique_ptr<Context>(new Context(OfWindow{}, options));
+}
+
+void Context::read_limits() {
     driver_ = str(reinterpret_cast<const char*>(glGetString(GL_RENDERER)), ", OpenGL ",
                   reinterpret_cast<const char*>(glGetString(GL_VERSION)));
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limits_.storage_bytes);

@@ -28,6 +28,9 @@ class Context {
 public:
     /// @throws Error  Device: no libEGL, no driver, or one below the version asked for
     explicit Context(const ContextOptions& options = {});
+    /// The context that a window has made current on this thread and that it keeps.
+    /// @throws Error  Device: none is current, or one below the version asked for
+    [[nodiscard]] static std::unique_ptr<Context> of_window(const ContextOptions& options = {});
     ~Context();
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
@@ -42,6 +45,9 @@ public:
 
 private:
     struct Handles;
+    struct OfWindow {};
+    Context(OfWindow, const ContextOptions& options);
+    void read_limits();
     std::unique_ptr<Handles> handles_;
     ContextLimits limits_;
     std::string driver_;

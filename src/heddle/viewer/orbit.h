@@ -3,6 +3,8 @@
 #include <heddle/base/vec.h>
 #include <heddle/render/camera.h>
 
+#include <cstdint>
+
 namespace heddle::viewer {
 
 /// A ball around all that is looked at, scene units.
@@ -22,12 +24,18 @@ struct Orbit {
     /// All of a ball is in the picture, from any side.
     /// @param aspect  width over height
     void frame(const Ball& ball, double aspect);
-    /// Goes around the target: `right` about `up`, then `upward` to at most straight above it; radians.
+    /// Turns what is seen to the right, as a mouse would drag it, then the eye upward, to at most straight above the
+    /// target; radians.
     void turn(double right, double upward);
     /// Moves the target with the picture, in parts of the picture's height.
     void pan(double right, double upward);
     /// Makes what is seen at the target `factor` times as large, > 0.
     void zoom(double factor);
+    /// Width of a pixel at the target, scene units.
+    [[nodiscard]] double pixel(std::int32_t height_px) const {
+        return height / static_cast<double>(height_px);
+    }
+    bool operator==(const Orbit&) const = default;
     /// @throws Error  InvalidArgument: a direction of no length, a height or angle out of range
     [[nodiscard]] CameraView camera() const;
 };

@@ -37,7 +37,7 @@ TEST(Orbit, AFramedBallTouchesThePicturesEdges) {
 TEST(Orbit, GoesAroundAndBackAndNeverOverThePole) {
     Orbit orbit{.from = {0.0, 0.0, 1.0}};
     orbit.turn(0.5 * std::numbers::pi, 0.0);
-    EXPECT_NEAR(orbit.from.x, -1.0, 1e-12); // what was on the right comes to the front
+    EXPECT_NEAR(orbit.from.x, -1.0, 1e-12); // what was on the left comes to the front
     orbit.turn(0.0, 0.3);
     EXPECT_NEAR(std::asin(orbit.from.y), 0.3, 1e-12);
     orbit.turn(0.0, 40.0);

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -111,16 +112,13 @@ struct SliceView::Scene {
     Program over = slab_program("shade slices", {kDepthGlsl, kShadeGlsl, kOverGlsl});
     Program weigh = slab_program("weigh slices", {kDepthGlsl, kShadeGlsl, kWeighGlsl});
 
-    /// What the shadow map holds.
-    struct Shadow {
-        Vec3d light;
+    struct ShadowMap {
+        Vec3d light; ///< that it was drawn for
         double opacity;
-        std::int32_t size;
-        bool operator==(const Shadow&) const = default;
+        Buffer depths;
     };
-    std::optional<Shadow> shadowed;
-    std::optional<Buffer> shadow;
-    std::optional<Buffer> front; ///< what is nearest to the eye
+    std::map<std::int32_t, ShadowMap> shadows; ///< by size
+    std::optional<Buffer> front;               ///< what is nearest to the eye
     std::optional<WeightedBlend> blend;
     std::int32_t blend_width = 0, blend_height = 0;
 
@@ -158,7 +156,7 @@ void SliceView::Scene::place(double asked_pixel) {
     context.check("place slices");
     units = next;
     pixel = asked_pixel;
-    shadowed.reset();
+    shadows.clear();
 }
 
 void SliceView::Scene::set_common(const Program& program,
@@ -195,16 +193,19 @@ void SliceView::Scene::draw_nearest(const EyeFrame& eye,
 }
 
 void SliceView::Scene::draw_shadows(const SliceLook& look) {
-    const Shadow now{look.light, look.opacity, look.map_size};
-    if (shadowed == now) return;
-    const auto pixels = static_cast<std::size_t>(look.map_size);
-    if (!shadow || shadow->byte_count() != pixels * pixels * sizeof(std::uint32_t)) {
-        shadow.emplace("the shadow map", pixels * pixels * sizeof(std::uint32_t));
+    const auto at = shadows.find(look.map_size);
+    if (at != shadows.end() && at->second.light == look.light &&
+        at->second.opacity == look.opacity) {
+        return;
     }
+    const auto pixels = static_cast<std::size_t>(look.map_size);
+    if (at != shadows.end()) shadows.erase(at);
+    ShadowMap map{look.light, look.opacity,
+                  Buffer("the shadow map", pixels * pixels * sizeof(std::uint32_t))};
     const ScissorOff whole;
     const EyeFrame eye(ball, look.light, look.map_size, units.unit);
-    draw_nearest(eye, look, -ball.radius / units.unit, *shadow);
-    shadowed = now;
+    draw_nearest(eye, look, -ball.radius / units.unit, map.depths);
+    shadows.emplace(look.map_size, std::move(map));
 }
 
 void SliceView::Scene::set_light(const Program& program,
@@ -225,7 +226,7 @@ void SliceView::Scene::set_light(const Program& program,
     program.set("world_y", seen({0.0, 1.0, 0.0}, 1.0));
     program.set("world_z", seen({0.0, 0.0, 1.0}, 1.0));
     set_depths(program, -ball.radius / units.unit);
-    if (look.shadows) shadow->bind_storage(4);
+    if (look.shadows) shadows.at(look.map_size).depths.bind_storage(4);
 }
 
 void SliceView::Scene::draw_weighted(const ViewTarget& target,
@@ -284,6 +285,11 @@ void SliceView::place(Geometry geometry) {
     scene_->ball = ball;
 }
 
+void SliceView::fit(double pixel) {
+    const double ratio = pixel / scene_->pixel;
+    if (ratio > 4.0 || ratio < 0.25) scene_->place(pixel);
+}
+
 std::int64_t SliceView::slice_count() const {
     return scene_->slices->slice_count();
 }
@@ -303,12 +309,6 @@ void SliceView::draw(const ViewTarget& target,
     using Clock = std::chrono::steady_clock;
     check_look(look);
     Scene& s = *scene_;
-    const auto pixel_at_target = [&] {
-        const EyeFrame eye(camera, target.width(), target.height(), 1.0);
-        return eye.pixel * (eye.parallel ? 1.0 : length(camera.eye - camera.target));
-    };
-    const double ratio = pixel_at_target() / s.pixel;
-    if (ratio > 4.0 || ratio < 0.25) s.place(pixel_at_target());
     const EyeFrame eye(camera, target.width(), target.height(), s.units.unit);
     const auto start = Clock::now();
     const auto waited = [&](const char* stage) {

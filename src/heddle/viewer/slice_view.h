@@ -34,6 +34,7 @@ struct SliceLook {
     double opacity = 1.0;  ///< multiplies what a texel of a slice hides, > 0
     std::int32_t map_size = 1024; ///< of the shadow map, pixels, 16 to 8192
     SliceColor color = SliceColor::Shaded;
+    bool operator==(const SliceLook&) const = default;
 };
 
 /// Seconds of a picture's stages, each waited for.
@@ -57,8 +58,12 @@ public:
     /// Places the slices again: other radii, twists, colours or centrelines of the same kinds of yarn.
     /// @throws Error  OutOfMemory, InvalidArgument: see raster::place_slices; what was there stays
     void place(Geometry geometry);
-    /// Draws over what the target holds, within its limit. Slices are placed anew where
-    /// pixels have become four times as large or as small.
+    /// Places them again, closer or farther apart, where pixels have become four times as small or large.
+    /// @param pixel   scene units, at what is looked at
+    /// @throws Error  as place
+    void fit(double pixel);
+    /// Draws over what the target holds, within its limit. Shadow maps are kept, one of each size, and so is
+    /// the order, until what they are made of changes.
     /// @param times  waited for and filled in where it is there
     /// @throws Error  InvalidArgument: a direction without length; Device, OutOfMemory
     void draw(const ViewTarget& target,

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <heddle/window/session.h>
+
+namespace heddle::window {
+
+/// What the panel remembers beside the session's settings.
+struct PanelState {
+    int kind = 0;           ///< of yarn that is edited
+    double answer_ms = 0.0; ///< how long the last input took to show
+};
+
+/// Draws the controls of a session with Dear ImGui, between its NewFrame and Render, and does what they ask.
+void draw_panel(Session& session, PanelState& state);
+
+} // namespace heddle::window

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <heddle/raster/shader.h>
+#include <heddle/window/refiner.h>
+
+#include <cstdint>
+
+namespace heddle::window {
+
+/// Shows a picture in the window's own frame, over white and as sRGB. Needs a current context.
+class Presenter {
+public:
+    Presenter();
+    ~Presenter();
+    Presenter(const Presenter&) = delete;
+    Presenter& operator=(const Presenter&) = delete;
+
+    void show(const Refiner& picture, std::int32_t width, std::int32_t height) const;
+
+private:
+    std::uint32_t vertices_ = 0;
+    raster::Program program_;
+};
+
+} // namespace heddle::window

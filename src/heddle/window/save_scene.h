@@ -1,0 +1,22 @@
+#pragma once
+
+#include <heddle/base/vec.h>
+#include <heddle/render/camera.h>
+
+#include <cstdint>
+#include <string>
+
+namespace heddle::window {
+
+/// A scene file for `heddle render` that shows a volume as the view does: its camera, and a light of the same
+/// direction and share: three quarters directional, a quarter from everywhere.          [docs/scene.md]
+/// @param volume         path of a .vdb, as the scene file's folder has it
+/// @param light          towards the light, any length but 0
+/// @param width, height  px
+[[nodiscard]] std::string scene_text(const std::string& volume,
+                                     const CameraView& camera,
+                                     Vec3d light,
+                                     std::int32_t width,
+                                     std::int32_t height);
+
+} // namespace heddle::window

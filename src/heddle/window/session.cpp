@@ -1,0 +1,226 @@
+#include <heddle/window/session.h>
+
+#include <heddle/base/error.h>
+#include <heddle/io/image/image.h>
+#include <heddle/io/output_file.h>
+#include <heddle/io/vdb/write_vdb.h>
+#include <heddle/window/save_scene.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+namespace heddle::window {
+namespace {
+
+constexpr std::int32_t kCoarseMap = 256; ///< shadow map while the view moves, pixels
+
+/// What of the settings a picture of slices or voxels shows.
+bool same_picture(const Settings& a, const Settings& b) {
+    return a.orbit == b.orbit && a.show == b.show && a.slices == b.slices && a.yarns == b.yarns;
+}
+
+} // namespace
+
+Session::Session(const raster::Context& context,
+                 Subject subject,
+                 const Settings& settings,
+                 std::int32_t width,
+                 std::int32_t height)
+    : context_(context), subject_(std::move(subject)), settings_(settings) {
+    if (subject_.geometry) {
+        kinds_ = names_of_kinds(*subject_.geometry);
+        settings_.yarns.resize(kinds_.size());
+        slices_ = std::make_unique<viewer::SliceView>(
+            context, edited(*subject_.geometry, settings_.yarns),
+            viewer::SliceOptions{.memory_bytes = subject_.memory_bytes, .seed = subject_.seed});
+    }
+    if (subject_.levels) show_voxels();
+    if (!slices_) settings_.show = Show::Voxels;
+    resize(width, height);
+    if (settings_.framed) frame_first();
+}
+
+Session::~Session() = default;
+
+/// Runs what may fail for its input; then its one line is the message.
+/// @throws Error  Device
+template <typename Run>
+bool Session::attempt(Run&& run) {
+    try {
+        run();
+        return true;
+    } catch (const Error& e) {
+        if (e.code() == ErrorCode::Device) throw;
+        message_ = e.what();
+    }
+    return false;
+}
+
+double Session::aspect() const {
+    return static_cast<double>(picture_->fine().width()) /
+           static_cast<double>(picture_->fine().height());
+}
+
+void Session::resize(std::int32_t width, std::int32_t height) {
+    if (picture_ && picture_->fine().width() == width && picture_->fine().height() == height) {
+        return;
+    }
+    picture_ = std::make_unique<Refiner>(width, height);
+}
+
+void Session::set(const Settings& settings) {
+    Settings next = settings;
+    next.yarns.resize(kinds_.size());
+    if (next.show == Show::Voxels && !has_voxels()) next.show = Show::Slices;
+    if (next.show == Show::Slices && !has_slices()) next.show = Show::Voxels;
+    if (slices_ && next.yarns != settings_.yarns) {
+        const bool placed =
+            attempt([&] { slices_->place(edited(*subject_.geometry, next.yarns)); });
+        if (!placed) next.yarns = settings_.yarns;
+    }
+    if (!same_picture(next, settings_)) picture_->restart();
+    settings_ = next;
+}
+
+void Session::draw(const viewer::ViewTarget& target, bool coarse) {
+    const CameraView camera = settings_.orbit.camera();
+    if (settings_.show == Show::Slices) {
+        viewer::SliceLook look = settings_.slices;
+        if (coarse) look.map_size = std::min(look.map_size, kCoarseMap);
+        slices_->draw(target, camera, look);
+    }
+    context_.check("draw");
+}
+
+bool Session::work(double seconds) {
+    take_result();
+    bool drawn = false;
+    const bool fine = attempt([&] {
+        if (slices_ && settings_.show == Show::Slices && !picture_->done()) {
+            slices_->fit(settings_.orbit.pixel(picture_->fine().height()));
+        }
+        drawn = picture_->work(
+            seconds, [&](const viewer::ViewTarget& target, bool coarse) { draw(target, coarse); });
+    });
+    return drawn || !fine;
+}
+
+void Session::voxelize() {
+    stop_job();
+    if (!subject_.geometry) {
+        message_ = "a volume is there already: open curves to voxelize them";
+        return;
+    }
+    Geometry geometry = edited(*subject_.geometry, settings_.yarns);
+    const double edge = settings_.orbit.pixel(picture_->fine().height()) * settings_.voxels.edge_px;
+    VoxelizeOptions options;
+    options.voxel_size = {edge, edge, edge};
+    options.footprints = 4; // transport through fibers needs them: docs/transport.md
+    options.seed = subject_.seed;
+    options.spool_dir = subject_.folder;
+    if (settings_.voxels.only_seen) {
+        const Bounds seen = seen_bounds(geometry, settings_.orbit.camera(), aspect());
+        if (seen.empty()) {
+            message_ = "nothing is seen that could be voxelized: move the view";
+            return;
+        }
+        options.bounds = seen;
+    }
+    message_.clear();
+    job_ = std::make_unique<VoxelJob>(
+        VoxelRequest{.geometry = std::move(geometry),
+                     .options = std::move(options),
+                     .raster = settings_.voxels.raster,
+                     .raster_options = {.composition = settings_.voxels.composition}});
+}
+
+void Session::stop_job() {
+    if (!job_) return;
+    job_.reset();
+    message_ = "stopped";
+}
+
+void Session::take_result() {
+    if (!job_) return;
+    std::optional<VoxelResult> result = job_->poll();
+    if (!result) return;
+    job_.reset();
+    message_ = result->message;
+    if (!result->levels) return;
+    subject_.levels = std::move(result->levels);
+    attempt([&] {
+        show_voxels();
+        settings_.show = Show::Voxels;
+    });
+    picture_->restart();
+}
+
+void Session::show_voxels() {}
+
+std::string Session::place_of(const char* suffix) const {
+    return (std::filesystem::path(subject_.folder) / (subject_.name + suffix)).string();
+}
+
+void Session::save_picture() {
+    attempt([&] {
+        if (!picture_->done()) {
+            picture_->finish(
+                [&](const viewer::ViewTarget& target, bool coarse) { draw(target, coarse); });
+        }
+        const viewer::ViewImage image = picture_->fine().image();
+        write_png(place_of(".png"), image.width, image.height, 3, image.rgb);
+        message_ = "saved " + place_of(".png");
+    });
+}
+
+void Session::save_voxels() {
+    if (!has_voxels()) {
+        message_ = "no voxels are there yet: voxelize first";
+        return;
+    }
+    attempt([&] {
+        Progress silent;
+        write_vdb(*subject_.levels, place_of(".vdb"), silent);
+        message_ = "saved " + place_of(".vdb");
+    });
+}
+
+void Session::save_scene() {
+    save_voxels();
+    if (message_.rfind("saved ", 0) != 0) return;
+    attempt([&] {
+        const std::string text =
+            scene_text(subject_.name + ".vdb", settings_.orbit.camera(), settings_.slices.light,
+                       picture_->fine().width(), picture_->fine().height());
+        OutputFile file(place_of(".toml"));
+        file.write(text.data(), text.size());
+        file.commit();
+        message_ = "saved " + place_of(".toml") + " and its .vdb";
+    });
+}
+
+viewer::Ball Session::ball() const {
+    return slices_ ? slices_->ball() : viewer::Ball{{}, 1.0};
+}
+
+/// From the unit ball to what is there: a target that was given stays.
+void Session::frame_first() {
+    const double radius = ball().radius;
+    viewer::Orbit& orbit = settings_.orbit;
+    if (orbit.target == Vec3d{}) orbit.target = ball().middle;
+    orbit.height *= radius;
+    settings_.framed = false;
+}
+
+void Session::frame_all() {
+    Settings next = settings_;
+    next.orbit.frame(ball(), aspect());
+    set(next);
+}
+
+std::int64_t Session::slice_count() const {
+    return slices_ ? slices_->slice_count() : 0;
+}
+
+} // namespace heddle::window

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <heddle/raster/context.h>
+#include <heddle/viewer/slice_view.h>
+#include <heddle/voxel/voxel_grid.h>
+#include <heddle/window/refiner.h>
+#include <heddle/window/settings.h>
+#include <heddle/window/voxel_job.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace heddle::window {
+
+/// What is looked at: yarns and hair, a volume, or both.
+struct Subject {
+    std::string name;                          ///< of the file, for titles and saved files
+    std::optional<Geometry> geometry;          ///< of yarns of the models slice and solid, or hair
+    std::shared_ptr<const VoxelLevels> levels; ///< may be null
+    std::uint64_t seed = 0;
+    std::int64_t memory_bytes = 0; ///< SliceOptions::memory_bytes
+    std::string folder = ".";      ///< where files are saved
+};
+
+/// What a view holds and does, without a window: settings in, pictures, voxels and files out. What fails
+/// leaves one line as message(), and everything as it was.
+class Session {
+public:
+    /// @param context  lives as long
+    /// @throws Error   as SliceView and VoxelView
+    Session(const raster::Context& context,
+            Subject subject,
+            const Settings& settings,
+            std::int32_t width,
+            std::int32_t height);
+    ~Session();
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    /// Takes other settings; the picture begins again where they change it.
+    void set(const Settings& settings);
+    [[nodiscard]] const Settings& settings() const { return settings_; }
+    /// @throws Error  as ViewTarget
+    void resize(std::int32_t width, std::int32_t height);
+
+    /// Takes what the job has made, and draws for about `seconds`.
+    /// @return        the picture is another
+    /// @throws Error  Device: the context is lost
+    bool work(double seconds);
+    [[nodiscard]] const Refiner& picture() const { return *picture_; }
+    [[nodiscard]] bool busy() const { return job_ != nullptr || !picture_->done(); }
+
+    /// Starts to voxelize what is seen, or all; stops what runs.
+    void voxelize();
+    void stop_job();
+    [[nodiscard]] const VoxelJob* job() const { return job_.get(); }
+    [[nodiscard]] bool has_voxels() const { return subject_.levels != nullptr; }
+    [[nodiscard]] bool has_slices() const { return slices_ != nullptr; }
+
+    /// NAME.png: the whole picture, finished first.
+    void save_picture();
+    /// NAME.vdb: the voxels.
+    void save_voxels();
+    /// NAME.toml and NAME.vdb.
+    void save_scene();
+
+    void frame_all();
+    [[nodiscard]] const std::string& message() const { return message_; }
+    [[nodiscard]] const Subject& subject() const { return subject_; }
+    [[nodiscard]] std::int64_t slice_count() const;
+    /// Names of what Settings::yarns edit.
+    [[nodiscard]] const std::vector<std::string>& kinds() const { return kinds_; }
+
+private:
+    void draw(const viewer::ViewTarget& target, bool coarse);
+    [[nodiscard]] viewer::Ball ball() const;
+    void frame_first();
+    void take_result();
+    void show_voxels();
+    template <typename Run>
+    bool attempt(Run&& run);
+    [[nodiscard]] double aspect() const;
+    [[nodiscard]] std::string place_of(const char* suffix) const;
+
+    const raster::Context& context_;
+    Subject subject_;
+    Settings settings_;
+    std::vector<std::string> kinds_;
+    std::unique_ptr<viewer::SliceView> slices_;
+    std::unique_ptr<Refiner> picture_;
+    std::unique_ptr<VoxelJob> job_;
+    std::string message_;
+};
+
+} // namespace heddle::window

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <heddle/raster/voxelize_slices.h>
+#include <heddle/viewer/orbit.h>
+#include <heddle/viewer/slice_view.h>
+#include <heddle/window/yarn_edit.h>
+
+#include <string>
+#include <vector>
+
+namespace heddle::window {
+
+enum class Show : std::uint8_t { Slices, Voxels };
+
+/// How "voxelize what I see" works.
+struct VoxelSettings {
+    bool raster = false; ///< slices drawn by OpenGL; else fibers
+    raster::Composition composition = raster::Composition::Accumulate;
+    double edge_px = 2.0;   ///< of a voxel, pixels at the target, > 0
+    bool only_seen = true;  ///< else all of the object
+    bool levels_all = true; ///< levels of detail are shown by footprint; else the finest alone
+    bool operator==(const VoxelSettings&) const = default;
+};
+
+/// All that the artist sets. A picture depends on this, the object and its voxels alone.
+struct Settings {
+    viewer::Orbit orbit;
+    bool framed = false; ///< the orbit is about the unit ball, and is to be moved to what is there
+    Show show = Show::Slices;
+    viewer::SliceLook slices;
+    std::vector<YarnEdit> yarns;
+    VoxelSettings voxels;
+};
+
+} // namespace heddle::window

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <heddle/base/progress.h>
+#include <heddle/window/session.h>
+
+#include <cstdint>
+
+namespace heddle::window {
+
+struct WindowOptions {
+    std::int32_t width = 1280; ///< pixels
+    std::int32_t height = 800;
+};
+
+/// How a window answered.
+struct WindowCounts {
+    std::int64_t inputs = 0; ///< frames that showed what input changed
+    double median_ms = 0.0;  ///< from the input to the picture that shows it
+    double worst_ms = 0.0;
+    std::string driver;
+};
+
+/// Opens a window on a subject and returns when it is closed. Where the driver loses its context, the
+/// window is opened anew with the same settings.
+/// @param settings  what it begins with
+/// @param progress  closes it once it is cancelled
+/// @throws Error    Device: no display, no OpenGL 4.5; as Session
+[[nodiscard]] WindowCounts run_window(const Subject& subject,
+                                      const Settings& settings,
+                                      const WindowOptions& options,
+                                      const Progress& progress);
+
+} // namespace heddle::window
