@@ -37,7 +37,7 @@ viewer::SliceLook look_of(const Arguments& arguments) {
                                                             : viewer::SliceColor::Shaded};
 }
 
-viewer::SliceOptions slice_options(const Arguments& arguments) {
+viewer::SliceViewOptions slice_options(const Arguments& arguments) {
     return {.memory_bytes = arguments.given("memory") ? arguments.bytes("memory") : 0,
             .seed = static_cast<std::uint64_t>(arguments.integer("seed"))};
 }

@@ -99,7 +99,7 @@ void check_look(const SliceLook& look) {
 
 struct SliceView::Scene {
     const raster::Context& context;
-    SliceOptions options;
+    SliceViewOptions options;
     Geometry geometry;
     Ball ball;
     double pixel = 0.0; ///< that slices were placed for, scene units
@@ -122,7 +122,7 @@ struct SliceView::Scene {
     std::optional<WeightedBlend> blend;
     std::int32_t blend_width = 0, blend_height = 0;
 
-    Scene(const raster::Context& on, Geometry what, const SliceOptions& asked)
+    Scene(const raster::Context& on, Geometry what, const SliceViewOptions& asked)
         : context(on),
           options(asked),
           geometry(std::move(what)),
@@ -257,7 +257,7 @@ void SliceView::Scene::draw_weighted(const ViewTarget& target,
 
 SliceView::SliceView(const raster::Context& context,
                      Geometry geometry,
-                     const SliceOptions& options) {
+                     const SliceViewOptions& options) {
     const Ball ball = ball_of(geometry);
     if (!geometry.meshes.empty() || !(ball.radius > 0.0)) {
         throw Error(ErrorCode::Unsupported,

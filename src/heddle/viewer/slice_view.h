@@ -12,7 +12,7 @@
 namespace heddle::viewer {
 
 /// How yarns are made slices.
-struct SliceOptions {
+struct SliceViewOptions {
     double pixel = 0.0; ///< scene units: slices are no closer; 0: 1/1000 of all that is there
     std::int64_t memory_bytes = 0; ///< of slices in view and their order, at most; 0: one buffer's
     std::uint64_t seed = 0;        ///< of the fibers' places
@@ -50,7 +50,7 @@ public:
     /// Makes the sections and places the slices.
     /// @param geometry  of yarns of the models slice and solid, or hair
     /// @throws Error  Unsupported: nothing to draw, meshes; as raster::build_sections and place
-    SliceView(const raster::Context& context, Geometry geometry, const SliceOptions& options);
+    SliceView(const raster::Context& context, Geometry geometry, const SliceViewOptions& options);
     ~SliceView();
     SliceView(const SliceView&) = delete;
     SliceView& operator=(const SliceView&) = delete;

@@ -33,7 +33,7 @@ Session::Session(const raster::Context& context,
         settings_.yarns.resize(kinds_.size());
         slices_ = std::make_unique<viewer::SliceView>(
             context, edited(*subject_.geometry, settings_.yarns),
-            viewer::SliceOptions{.memory_bytes = subject_.memory_bytes, .seed = subject_.seed});
+            viewer::SliceViewOptions{.memory_bytes = subject_.memory_bytes, .seed = subject_.seed});
     }
     if (subject_.levels) show_voxels();
     if (!slices_) settings_.show = Show::Voxels;

@@ -20,7 +20,7 @@ struct Subject {
     std::optional<Geometry> geometry;          ///< of yarns of the models slice and solid, or hair
     std::shared_ptr<const VoxelLevels> levels; ///< may be null
     std::uint64_t seed = 0;
-    std::int64_t memory_bytes = 0; ///< SliceOptions::memory_bytes
+    std::int64_t memory_bytes = 0; ///< SliceViewOptions::memory_bytes
     std::string folder = ".";      ///< where files are saved
 };
 
