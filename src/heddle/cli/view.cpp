@@ -139,6 +139,7 @@ void open_window(Geometry geometry, const Arguments& arguments, Report& report, 
         subject, settings,
         {.width = static_cast<std::int32_t>(size[0]), .height = static_cast<std::int32_t>(size[1])},
         bar);
+    bar.check();
     report.text("driver", counts.driver);
     report.count("inputs shown", counts.inputs);
     report.number("median answer", counts.median_ms, "ms");

@@ -38,13 +38,6 @@ bool Refiner::work(double seconds, const Draw& draw) {
     return true;
 }
 
-void Refiner::finish(const Draw& draw) {
-    rows_ = 0;
-    band_ = fine_.height();
-    stage_ = Stage::Fine;
-    (void)work(0.0, draw);
-}
-
 void Refiner::draw_coarse(double seconds, const Draw& draw) {
     const std::int32_t width = (fine_.width() + scale_ - 1) / scale_;
     const std::int32_t height = (fine_.height() + scale_ - 1) / scale_;

@@ -25,9 +25,6 @@ public:
     /// @return        the picture is another than before
     /// @throws Error  what `draw` throws; it begins again then
     bool work(double seconds, const Draw& draw);
-    /// Draws what is missing, however long it takes.
-    void finish(const Draw& draw);
-
     [[nodiscard]] bool done() const { return stage_ == Stage::Done; }
     [[nodiscard]] const viewer::ViewTarget& fine() const { return fine_; }
     /// Below `rows_done` rows of the fine one hold, from below; above, the coarse one.

@@ -103,6 +103,7 @@ bool Session::work(double seconds) {
         drawn = picture_->work(
             seconds, [&](const viewer::ViewTarget& target, bool coarse) { draw(target, coarse); });
     });
+    write_picture();
     return drawn || !fine;
 }
 
@@ -163,11 +164,15 @@ std::string Session::place_of(const char* suffix) const {
 }
 
 void Session::save_picture() {
+    picture_wanted_ = true;
+    message_ = "saves the picture when it is whole";
+    write_picture();
+}
+
+void Session::write_picture() {
+    if (!picture_wanted_ || !picture_->done()) return;
+    picture_wanted_ = false;
     attempt([&] {
-        if (!picture_->done()) {
-            picture_->finish(
-                [&](const viewer::ViewTarget& target, bool coarse) { draw(target, coarse); });
-        }
         const viewer::ViewImage image = picture_->fine().image();
         write_png(place_of(".png"), image.width, image.height, 3, image.rgb);
         message_ = "saved " + place_of(".png");

@@ -59,7 +59,7 @@ public:
     [[nodiscard]] bool has_voxels() const { return subject_.levels != nullptr; }
     [[nodiscard]] bool has_slices() const { return slices_ != nullptr; }
 
-    /// NAME.png: the whole picture, finished first.
+    /// NAME.png: the picture, when it is whole.
     void save_picture();
     /// NAME.vdb: the voxels.
     void save_voxels();
@@ -78,6 +78,7 @@ private:
     [[nodiscard]] viewer::Ball ball() const;
     void frame_first();
     void take_result();
+    void write_picture();
     void show_voxels();
     template <typename Run>
     bool attempt(Run&& run);
@@ -91,6 +92,7 @@ private:
     std::unique_ptr<viewer::SliceView> slices_;
     std::unique_ptr<Refiner> picture_;
     std::unique_ptr<VoxelJob> job_;
+    bool picture_wanted_ = false;
     std::string message_;
 };
 

@@ -98,8 +98,12 @@ TEST_F(SessionTest, VoxelizesWhatIsSeenByBothBackendsAndSavesIt) {
 TEST_F(SessionTest, SavesAPictureThatIsWhole) {
     Session session(context_, subject_, settings_, kSize, kSize);
     session.save_picture();
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "fiber.png")) << "it is not there yet";
+    ASSERT_TRUE(settle(session));
     EXPECT_TRUE(std::filesystem::exists(folder_ / "fiber.png")) << session.message();
-    EXPECT_TRUE(session.picture().done());
+    std::filesystem::remove(folder_ / "fiber.png");
+    session.save_picture();
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "fiber.png")) << "it was";
 }
 
 TEST_F(SessionTest, WhatFailsIsALineAndLeavesTheRest) {
