@@ -37,21 +37,17 @@ viewer::SliceLook look_of(const Arguments& arguments) {
                                                             : viewer::SliceColor::Shaded};
 }
 
-viewer::SliceViewOptions slice_options(const Arguments& arguments) {
-    return {.memory_bytes = arguments.given("memory") ? arguments.bytes("memory") : 0,
-            .seed = static_cast<std::uint64_t>(arguments.integer("seed"))};
-}
-
 Vec3d axis_of(const std::string& name) {
     return {name == "x" ? 1.0 : 0.0, name == "y" ? 1.0 : 0.0, name == "z" ? 1.0 : 0.0};
 }
 
-viewer::Orbit orbit_of(const Arguments& arguments, const viewer::Ball& ball, double aspect) {
+/// About the unit ball.
+viewer::Orbit orbit_of(const Arguments& arguments, double aspect) {
     constexpr double kDegree = std::numbers::pi / 180.0;
     viewer::Orbit orbit{.from = direction(arguments, "from"),
                         .up = axis_of(arguments.text("up")),
                         .view_angle = arguments.number("view-angle") * kDegree};
-    orbit.frame(ball, aspect);
+    orbit.frame({.radius = 1.0}, aspect);
     if (arguments.given("target")) orbit.target = direction(arguments, "target");
     orbit.zoom(arguments.number("zoom"));
     return orbit;
@@ -72,68 +68,50 @@ void make_folder(const std::string& folder) {
     }
 }
 
-void draw_frames(viewer::SliceView& view,
+void draw_frames(const window::Subject& subject,
+                 const window::Settings& settings,
                  const Arguments& arguments,
                  Report& report,
                  ProgressBar& bar) {
     const std::vector<double> size = arguments.numbers("size", 'x');
-    const viewer::ViewTarget target(static_cast<std::int32_t>(size[0]),
-                                    static_cast<std::int32_t>(size[1]));
+    bar.begin("place slices", "files", 1);
+    const raster::Context context;
+    window::Session session(context, subject, settings, static_cast<std::int32_t>(size[0]),
+                            static_cast<std::int32_t>(size[1]));
     const std::int64_t frames = arguments.integer("frames");
-    viewer::Orbit orbit = orbit_of(arguments, view.ball(), size[0] / size[1]);
-    view.fit(orbit.pixel(target.height()));
+    window::Settings now = session.settings();
     viewer::SliceTimes sum;
     bar.begin("draw", "frames", frames);
     for (std::int64_t f = 0; f < frames; ++f) {
         bar.check();
         viewer::SliceTimes times;
-        target.clear();
-        view.draw(target, orbit.camera(), look_of(arguments), &times);
-        const viewer::ViewImage image = target.image();
+        const viewer::ViewImage image = session.draw_now(&times);
         write_output([&] {
-            write_png(frame_path(arguments.text("output"), f), image.width, image.height, 3,
-                      image.rgb);
+            write_png(frame_path(subject.folder, f), image.width, image.height, 3, image.rgb);
         });
-        orbit.turn(-2.0 * std::numbers::pi / static_cast<double>(frames), 0.0);
+        now.orbit.turn(-2.0 * std::numbers::pi / static_cast<double>(frames), 0.0);
+        session.set(now);
         sum.sort += times.sort;
         sum.shadow += times.shadow;
         sum.draw += times.draw;
         bar.advance(1);
     }
     const auto each = 1.0 / static_cast<double>(frames);
-    report.count("slices", view.slice_count());
-    report.text("blend", view.is_split() ? "weighted" : arguments.text("blend"));
+    report.text("output", subject.folder);
+    report.text("driver", context.driver());
+    report.count("slices", session.slice_count());
+    report.text("blend", session.blend());
     report.seconds("sort a frame", sum.sort * each);
     report.seconds("shadow a frame", sum.shadow * each);
     report.seconds("draw a frame", sum.draw * each);
 }
 
-void draw_headless(Geometry geometry,
-                   const Arguments& arguments,
-                   Report& report,
-                   ProgressBar& bar) {
-    make_folder(arguments.text("output"));
-    bar.begin("place slices", "files", 1);
-    const raster::Context context;
-    viewer::SliceView view(context, std::move(geometry), slice_options(arguments));
-    report.text("output", arguments.text("output"));
-    report.text("driver", context.driver());
-    draw_frames(view, arguments, report, bar);
-}
-
-void open_window(Geometry geometry, const Arguments& arguments, Report& report, ProgressBar& bar) {
+void open_window(const window::Subject& subject,
+                 const window::Settings& settings,
+                 const Arguments& arguments,
+                 Report& report,
+                 ProgressBar& bar) {
     const std::vector<double> size = arguments.numbers("size", 'x');
-    window::Subject subject;
-    subject.name = std::filesystem::path(arguments.text("FILE")).stem().string();
-    subject.geometry = std::move(geometry);
-    subject.seed = slice_options(arguments).seed;
-    subject.memory_bytes = slice_options(arguments).memory_bytes;
-    subject.folder = arguments.given("output") ? arguments.text("output") : ".";
-    make_folder(subject.folder);
-    window::Settings settings;
-    settings.orbit = orbit_of(arguments, {.radius = 1.0}, size[0] / size[1]);
-    settings.framed = true;
-    settings.slices = look_of(arguments);
     bar.finish(); // its line would stay over the window's life
     const window::WindowCounts counts = window::run_window(
         subject, settings,
@@ -146,6 +124,32 @@ void open_window(Geometry geometry, const Arguments& arguments, Report& report, 
     report.number("slowest answer", counts.worst_ms, "ms");
 }
 
+window::Subject subject_of(const Arguments& arguments, Report& report) {
+    window::Subject out;
+    out.name = std::filesystem::path(arguments.text("FILE")).stem().string();
+    out.folder = arguments.given("output") ? arguments.text("output") : ".";
+    out.seed = static_cast<std::uint64_t>(arguments.integer("seed"));
+    if (arguments.given("memory")) out.memory_bytes = arguments.bytes("memory");
+    Geometry geometry = load_geometry(arguments.text("FILE"), arguments);
+    apply_model(geometry, arguments);
+    for (std::string& note : raster::make_slices_of_yarns(geometry, out.seed)) {
+        geometry.notes.push_back(std::move(note));
+    }
+    for (const std::string& note : geometry.notes) report.note(note);
+    out.geometry = std::move(geometry);
+    return out;
+}
+
+window::Settings settings_of(const Arguments& arguments) {
+    const std::vector<double> size = arguments.numbers("size", 'x');
+    window::Settings out;
+    out.orbit = orbit_of(arguments, size[0] / size[1]);
+    out.target_given = arguments.given("target");
+    out.framed = true;
+    out.slices = look_of(arguments);
+    return out;
+}
+
 void run_view(const Arguments& arguments, Report& report, ProgressBar& bar) {
     const bool headless = arguments.given("headless");
     if (headless && !arguments.given("output")) {
@@ -155,17 +159,13 @@ void run_view(const Arguments& arguments, Report& report, ProgressBar& bar) {
         throw UsageError("--frames is of no use here: it needs --headless");
     }
     bar.begin("read", "files", 1);
-    Geometry geometry = load_geometry(arguments.text("FILE"), arguments);
-    apply_model(geometry, arguments);
-    const auto seed = static_cast<std::uint64_t>(arguments.integer("seed"));
-    for (std::string& note : raster::make_slices_of_yarns(geometry, seed)) {
-        geometry.notes.push_back(std::move(note));
-    }
-    for (const std::string& note : geometry.notes) report.note(note);
+    const window::Subject subject = subject_of(arguments, report);
+    make_folder(subject.folder);
+    const window::Settings settings = settings_of(arguments);
     if (headless)
-        draw_headless(std::move(geometry), arguments, report, bar);
+        draw_frames(subject, settings, arguments, report, bar);
     else
-        open_window(std::move(geometry), arguments, report, bar);
+        open_window(subject, settings, arguments, report, bar);
     bar.finish();
     for (const auto& [stage, seconds] : bar.stages()) report.seconds(stage, seconds);
 }

@@ -83,28 +83,39 @@ void Session::set(const Settings& settings) {
     settings_ = next;
 }
 
-void Session::draw(const viewer::ViewTarget& target, bool coarse) {
+void Session::draw(const viewer::ViewTarget& target, bool coarse, viewer::SliceTimes* times) {
     const CameraView camera = settings_.orbit.camera();
     if (settings_.show == Show::Slices) {
         viewer::SliceLook look = settings_.slices;
         if (coarse) look.map_size = std::min(look.map_size, kCoarseMap);
-        slices_->draw(target, camera, look);
+        slices_->draw(target, camera, look, times);
     }
     context_.check("draw");
+}
+
+void Session::fit_slices() {
+    if (slices_) slices_->fit(settings_.orbit.pixel(picture_->fine().height()));
 }
 
 bool Session::work(double seconds) {
     take_result();
     bool drawn = false;
     const bool fine = attempt([&] {
-        if (slices_ && settings_.show == Show::Slices && !picture_->done()) {
-            slices_->fit(settings_.orbit.pixel(picture_->fine().height()));
-        }
+        if (!picture_->done()) fit_slices();
         drawn = picture_->work(
             seconds, [&](const viewer::ViewTarget& target, bool coarse) { draw(target, coarse); });
     });
     write_picture();
     return drawn || !fine;
+}
+
+viewer::ViewImage Session::draw_now(viewer::SliceTimes* times) {
+    fit_slices();
+    const viewer::ViewTarget& target = picture_->fine();
+    target.clear();
+    draw(target, false, times);
+    picture_->restart();
+    return target.image();
 }
 
 void Session::voxelize() {
@@ -209,11 +220,11 @@ viewer::Ball Session::ball() const {
     return slices_ ? slices_->ball() : viewer::Ball{{}, 1.0};
 }
 
-/// From the unit ball to what is there: a target that was given stays.
+/// From the unit ball to what is there.
 void Session::frame_first() {
     const double radius = ball().radius;
     viewer::Orbit& orbit = settings_.orbit;
-    if (orbit.target == Vec3d{}) orbit.target = ball().middle;
+    if (!settings_.target_given) orbit.target = ball().middle;
     orbit.height *= radius;
     settings_.framed = false;
 }
@@ -222,6 +233,11 @@ void Session::frame_all() {
     Settings next = settings_;
     next.orbit.frame(ball(), aspect());
     set(next);
+}
+
+std::string Session::blend() const {
+    if (settings_.slices.weighted || (slices_ && slices_->is_split())) return "weighted";
+    return settings_.slices.sorted ? "sorted" : "as placed";
 }
 
 std::int64_t Session::slice_count() const {

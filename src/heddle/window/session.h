@@ -49,6 +49,10 @@ public:
     /// @return        the picture is another
     /// @throws Error  Device: the context is lost
     bool work(double seconds);
+    /// The whole picture, drawn at once.
+    /// @param times   of slices; may be null
+    /// @throws Error  what fails
+    [[nodiscard]] viewer::ViewImage draw_now(viewer::SliceTimes* times = nullptr);
     [[nodiscard]] const Refiner& picture() const { return *picture_; }
     [[nodiscard]] bool busy() const { return job_ != nullptr || !picture_->done(); }
 
@@ -70,11 +74,13 @@ public:
     [[nodiscard]] const std::string& message() const { return message_; }
     [[nodiscard]] const Subject& subject() const { return subject_; }
     [[nodiscard]] std::int64_t slice_count() const;
+    [[nodiscard]] std::string blend() const; ///< how slices are put over each other, in words
     /// Names of what Settings::yarns edit.
     [[nodiscard]] const std::vector<std::string>& kinds() const { return kinds_; }
 
 private:
-    void draw(const viewer::ViewTarget& target, bool coarse);
+    void draw(const viewer::ViewTarget& target, bool coarse, viewer::SliceTimes* times = nullptr);
+    void fit_slices();
     [[nodiscard]] viewer::Ball ball() const;
     void frame_first();
     void take_result();

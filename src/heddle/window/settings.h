@@ -25,7 +25,8 @@ struct VoxelSettings {
 /// All that the artist sets. A picture depends on this, the object and its voxels alone.
 struct Settings {
     viewer::Orbit orbit;
-    bool framed = false; ///< the orbit is about the unit ball, and is to be moved to what is there
+    bool framed = false; ///< the orbit is about the unit ball, and is to be moved to what is there,
+    bool target_given = false; ///< but for its target
     Show show = Show::Slices;
     viewer::SliceLook slices;
     std::vector<YarnEdit> yarns;
