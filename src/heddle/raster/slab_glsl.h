@@ -57,7 +57,7 @@ vec3 way;         // unit
 vec2 plane_a;     // height over a's plane is plane_a.x + plane_a.y t
 vec2 plane_b;
 
-struct Local { vec2 at; float scale; float rise; vec3 normal, binormal; }; // at: model units
+struct Local { vec2 at; float scale; float part; float rise; vec3 normal, binormal; }; // at: model units
 
 vec2 plane_of(vec3 center, vec3 tangent) {
     return vec2(dot(tangent, ray - center), dot(tangent, way));
@@ -111,6 +111,7 @@ Local local_at(float t) {
     vec3 lerped = mix(normal_a.xyz, normal_b.xyz, f);
     l.normal = normalize(lerped - dot(lerped, along) * along);
     l.binormal = cross(along, l.normal);
+    l.part = f;
     l.scale = mix(place_a.w, place_b.w, f);
     l.at = vec2(dot(p, l.normal), dot(p, l.binormal)) / l.scale;
     return l;

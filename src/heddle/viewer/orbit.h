@@ -11,6 +11,7 @@ namespace heddle::viewer {
 struct Ball {
     Vec3d middle{};
     double radius = 0.0;
+    bool operator==(const Ball&) const = default;
 };
 
 /// A camera that looks at a target from around it.

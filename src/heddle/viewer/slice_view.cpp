@@ -115,6 +115,7 @@ struct SliceView::Scene {
     struct ShadowMap {
         Vec3d light; ///< that it was drawn for
         double opacity;
+        Ball over; ///< what it covers
         Buffer depths;
     };
     std::map<std::int32_t, ShadowMap> shadows; ///< by size
@@ -133,9 +134,14 @@ struct SliceView::Scene {
     void place(double asked_pixel);
     void set_common(const Program& program, const EyeFrame& eye, const SliceLook& look) const;
     void set_light(const Program& program, const EyeFrame& eye, const SliceLook& look) const;
+    /// Least depth of anything in a map over `part`, units.
+    [[nodiscard]] double shadow_depth(const Ball& part) const {
+        return -(ball.radius + length(part.middle - ball.middle)) / units.unit;
+    }
     void set_depths(const Program& program, double shift) const;
     void draw_nearest(const EyeFrame& eye, const SliceLook& look, double shift, const Buffer& map);
-    void draw_shadows(const SliceLook& look);
+    [[nodiscard]] Ball shadowed_part(const CameraView& camera, double aspect) const;
+    void draw_shadows(const SliceLook& look, const Ball& part);
     void draw_weighted(const ViewTarget& target, const EyeFrame& eye, const SliceLook& look);
 };
 
@@ -169,9 +175,9 @@ void SliceView::Scene::set_common(const Program& program,
     sections.bind();
 }
 
-/// Depths of a ball around all, from `shift` on.
+/// Depths from `shift` on, as far as anything in a map can lie.
 void SliceView::Scene::set_depths(const Program& program, double shift) const {
-    program.set("depth_scale", static_cast<float>(kDepths * units.unit / (2.0 * ball.radius)));
+    program.set("depth_scale", static_cast<float>(kDepths * units.unit / (4.0 * ball.radius)));
     program.set("depth_shift", static_cast<float>(shift));
 }
 
@@ -192,32 +198,50 @@ void SliceView::Scene::draw_nearest(const EyeFrame& eye,
     raster::finish_writes();
 }
 
-void SliceView::Scene::draw_shadows(const SliceLook& look) {
+/// What the shadow map has to cover: all, or where little of that is seen, what lies around the target; it moves
+/// and grows in steps, so that a moving view seldom needs another.
+Ball SliceView::Scene::shadowed_part(const CameraView& camera, double aspect) const {
+    const double height = camera.orthographic ? camera.view_height
+                                              : 2.0 * std::tan(0.5 * camera.view_angle) *
+                                                    length(camera.eye - camera.target);
+    const double seen = height * std::max(1.0, aspect);
+    const double radius = ball.radius * std::exp2(std::ceil(std::log2(seen / ball.radius)));
+    if (radius >= ball.radius) return ball;
+    Ball out{{}, radius};
+    for (int a = 0; a < 3; ++a) {
+        const double step = 0.25 * radius;
+        out.middle[a] = std::round(camera.target[a] / step) * step;
+    }
+    return out;
+}
+
+void SliceView::Scene::draw_shadows(const SliceLook& look, const Ball& part) {
     const auto at = shadows.find(look.map_size);
     if (at != shadows.end() && at->second.light == look.light &&
-        at->second.opacity == look.opacity) {
+        at->second.opacity == look.opacity && at->second.over == part) {
         return;
     }
     const auto pixels = static_cast<std::size_t>(look.map_size);
     if (at != shadows.end()) shadows.erase(at);
-    ShadowMap map{look.light, look.opacity,
+    ShadowMap map{look.light, look.opacity, part,
                   Buffer("the shadow map", pixels * pixels * sizeof(std::uint32_t))};
     const ScissorOff whole;
-    const EyeFrame eye(ball, look.light, look.map_size, units.unit);
-    draw_nearest(eye, look, -ball.radius / units.unit, map.depths);
+    const EyeFrame eye(part, look.light, look.map_size, units.unit);
+    draw_nearest(eye, look, shadow_depth(part), map.depths);
     shadows.emplace(look.map_size, std::move(map));
 }
 
 void SliceView::Scene::set_light(const Program& program,
                                  const EyeFrame& eye,
                                  const SliceLook& look) const {
-    const EyeFrame map(ball, look.light, look.map_size, units.unit);
+    const Ball part = look.shadows ? shadows.at(look.map_size).over : ball;
+    const EyeFrame map(part, look.light, look.map_size, units.unit);
     const auto seen = [&](Vec3d v, double factor) { return to_float(eye.axes.of(v) * factor); };
     program.set("to_light", seen(normalize(look.light), 1.0));
     program.set("light_right", seen(map.axes.right, 1.0 / map.pixel));
     program.set("light_up", seen(map.axes.up, 1.0 / map.pixel));
     program.set("light_away", seen(map.axes.away, 1.0));
-    program.set("light_middle", eye.seen(middle()));
+    program.set("light_middle", eye.seen(map.eye));
     program.set("light_pixel", static_cast<float>(map.pixel));
     program.set("shadow_size", look.shadows ? look.map_size : 0);
     program.set("occlusion", look.occlusion ? 1 : 0);
@@ -225,7 +249,7 @@ void SliceView::Scene::set_light(const Program& program,
     program.set("world_x", seen({1.0, 0.0, 0.0}, 1.0));
     program.set("world_y", seen({0.0, 1.0, 0.0}, 1.0));
     program.set("world_z", seen({0.0, 0.0, 1.0}, 1.0));
-    set_depths(program, -ball.radius / units.unit);
+    set_depths(program, shadow_depth(part));
     if (look.shadows) shadows.at(look.map_size).depths.bind_storage(4);
 }
 
@@ -247,7 +271,7 @@ void SliceView::Scene::draw_weighted(const ViewTarget& target,
         const std::uint32_t slabs = slices->see(c, eye, middle(), false);
         set_common(weigh, eye, look);
         set_light(weigh, eye, look);
-        weigh.set("eye_scale", static_cast<float>(kDepths * units.unit / (2.0 * ball.radius)));
+        weigh.set("eye_scale", static_cast<float>(kDepths * units.unit / (4.0 * ball.radius)));
         weigh.set("eye_shift", static_cast<float>(first));
         front->bind_storage(5);
         ViewTarget::draw_quads(slabs);
@@ -317,7 +341,11 @@ void SliceView::draw(const ViewTarget& target,
         s.context.check(stage);
         return Clock::now();
     };
-    if (look.shadows) s.draw_shadows(look);
+    if (look.shadows) {
+        const double aspect =
+            static_cast<double>(target.width()) / static_cast<double>(target.height());
+        s.draw_shadows(look, s.shadowed_part(camera, aspect));
+    }
     const auto shadowed = waited("shadows");
     auto sorted = shadowed;
     if (look.weighted || is_split()) {

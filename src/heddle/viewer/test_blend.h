@@ -211,7 +211,7 @@ private:
             open += weight * image.lit(tu, tv);
             const double half = 2.0 * std::sin(0.5 * static_cast<double>(s.a.turn));
             direction = direction + normalize(normal * (-half * v) + binormal * (half * u) +
-                                              along * std::max(rise, 1e-6)) *
+                                              (s.ta * (1 - f) + s.tb * f) * std::max(rise, 1e-6)) *
                                         weight;
         }
         if (depth < 1e-4) return;

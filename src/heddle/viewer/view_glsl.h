@@ -128,6 +128,12 @@ Steps steps_through(vec2 range) {
 
 float hidden_by(float alpha, Steps steps) { return -log(1.0 - min(alpha, 0.996)) * steps.strength; }
 
+// As direction_of, but that of the centreline changes from slice to slice without a step.
+vec3 smooth_direction(Local l) {
+    vec3 tangent = mix(tangent_a.xyz, tangent_b.xyz, l.part);
+    return fiber_direction(l.at * l.scale, tangent_a.w, l.rise, l.normal, l.binormal, tangent);
+}
+
 struct Look { float depth; vec3 color; vec3 direction; float light; float t; };
 
 const float kOpaque = 7.0; // 1/1000 is left
@@ -145,7 +151,7 @@ Look look_through(vec2 range) {
         sum.depth += hidden;
         sum.color += weight * here.rgb * unpackUnorm4x8(uint(normal_b.w)).rgb;
         sum.light += weight * textureLod(section_light, layer_place(l.at), steps.level).r;
-        sum.direction += weight * direction_of(l);
+        sum.direction += weight * smooth_direction(l);
         sum.t += weight * t;
     }
     float total = max(1.0 - exp(-sum.depth), 1e-6);
@@ -207,6 +213,7 @@ float lit(vec3 at) {
     if (shadow_size == 0) return 1.0;
     vec3 d = at - light_middle;
     vec2 p = vec2(dot(light_right, d), dot(light_up, d)) + 0.5 * float(shadow_size);
+    if (any(lessThan(p, vec2(0.0))) || any(greaterThan(p, vec2(shadow_size)))) return 1.0;
     float bias = 0.7 * sizes.z + 1.5 * light_pixel;
     uint depth = depth_bits(dot(light_away, d) - bias);
     float sum = 0.0;
