@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# window_test.sh HEDDLE: the window of `heddle view` under Xvfb: orbit, edit, voxelize, save, close, by mouse and keys.
+# window_test.sh HEDDLE TESTS: the window of `heddle view` under Xvfb: orbit, edit, voxelize, save, close, by mouse and keys.
 # 77 where there is no Xvfb or xdotool. With RECORD=DIR each step leaves a screenshot there (ImageMagick's import).
 set -uo pipefail
 heddle=$1
+tests=$2
 for tool in Xvfb xdotool; do
     command -v $tool >/dev/null || { echo "no $tool here: skipped"; exit 77; }
 done
@@ -92,6 +93,9 @@ until_true 60 xdotool search --name 'knit - heddle' >/dev/null 2>&1 || wrong "no
 kill -INT $view
 wait $view
 [ $? -eq 130 ] || wrong "Ctrl-C does not end it with 130: $(cat words.txt)"
+
+"$tests" --gtest_filter='Window.*' >out.txt 2>&1 || wrong "$(cat out.txt)"
+! grep -q SKIPPED out.txt || wrong "the window's own tests were skipped"
 
 # no display: one line
 DISPLAY=:12345 "$heddle" view knit.bcc >out.txt 2>words.txt

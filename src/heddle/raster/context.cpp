@@ -148,14 +148,20 @@ void Context::read_limits() {
 
 Context::~Context() = default;
 
+bool Context::is_software() const {
+    return driver_.find("llvmpipe") != std::string::npos ||
+           driver_.find("softpipe") != std::string::npos;
+}
+
 void Context::check(const char* stage) const {
     check_status(glGetGraphicsResetStatus(), glGetError(), stage);
 }
 
 void check_status(std::uint32_t reset, std::uint32_t error, const char* stage) {
     if (reset != GL_NO_ERROR || error == GL_CONTEXT_LOST) {
-        throw Error(ErrorCode::Device, str("opengl: the context was lost in stage '", stage, "'"),
-                    "run again; with a smaller --memory if the driver gave up on a long batch");
+        throw LostContext(
+            ErrorCode::Device, str("opengl: the context was lost in stage '", stage, "'"),
+            "run again; with a smaller --memory if the driver gave up on a long batch");
     }
     if (error == GL_OUT_OF_MEMORY) {
         throw Error(ErrorCode::OutOfMemory,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <heddle/base/error.h>
+
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -21,6 +23,11 @@ struct ContextLimits {
     std::int32_t groups = 0;        ///< most work groups along x
 };
 
+/// Device: the driver gave up the context with all that was made in it; another may do.
+struct LostContext : Error {
+    using Error::Error;
+};
+
 /// OpenGL without a window or a display, by EGL: surfaceless where the driver has it (Mesa), else on
 /// the first EGL device that gives a context. Current on the thread that made it, which alone may use
 /// it and all that is made in it.
@@ -38,9 +45,11 @@ public:
     [[nodiscard]] const ContextLimits& limits() const { return limits_; }
     /// Name and version of the driver, for reports.
     [[nodiscard]] const std::string& driver() const { return driver_; }
+    /// True where OpenGL runs on the CPU (Mesa's llvmpipe or softpipe).
+    [[nodiscard]] bool is_software() const;
 
     /// @param stage  what was done since the last call, for the message
-    /// @throws Error  OutOfMemory; Device: the context is lost, or a call failed
+    /// @throws Error  OutOfMemory; Device: a call failed; LostContext
     void check(const char* stage) const;
 
 private:

@@ -1,6 +1,7 @@
 #include <heddle/viewer/slice_view.h>
 
 #include <heddle/base/error.h>
+#include <heddle/base/memory.h>
 #include <heddle/raster/brick_glsl.h>
 #include <heddle/raster/slab_glsl.h>
 #include <heddle/raster/slice_glsl.h>
@@ -83,6 +84,13 @@ private:
     GLboolean was_;
 };
 
+/// Where the driver's memory is the host's, it gives more than is there: so many slices at most. 0: no limit.
+double most_slices(const raster::Context& context) {
+    if (!context.is_software()) return 0.0;
+    const auto each = static_cast<double>(sizeof(raster::PlacedSlice)) + kSeenBytes;
+    return 0.9 * static_cast<double>(available_bytes()) / each;
+}
+
 void check_look(const SliceLook& look) {
     if (look.opacity > 0.0 && length(look.light) > 0.0 && look.map_size >= 16 &&
         look.map_size <= 8192) {
@@ -152,7 +160,9 @@ void SliceView::Scene::place(double asked_pixel) {
     const auto part = static_cast<std::int64_t>(sizeof(raster::PlacedSlice));
     std::vector<raster::SliceChunk> chunks =
         raster::place_slices(context, geometry, layers, next,
-                             {.chunk_bytes = options.memory_bytes / each * part, .lattice = false});
+                             {.most_slices = most_slices(context),
+                              .chunk_bytes = options.memory_bytes / each * part,
+                              .lattice = false});
     if (chunks.empty()) {
         throw Error(ErrorCode::Unsupported,
                     str("view: no curve of '", geometry.name, "' has any length"),

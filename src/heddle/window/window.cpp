@@ -221,6 +221,7 @@ struct Run {
     const Progress& progress;
     Answers answers;
     WindowCounts counts;
+    std::int64_t frames = 0;
 
     void once();
     void frame(GLFWwindow* window,
@@ -266,6 +267,7 @@ void Run::once() {
     const OpenWindow window(options, subject.name + " - heddle");
     const std::unique_ptr<raster::Context> context = raster::Context::of_window();
     counts.driver = context->driver();
+    ++counts.contexts;
     Session session(*context, subject, settings, options.width, options.height);
     const Presenter presenter;
     PanelState panel;
@@ -275,6 +277,8 @@ void Run::once() {
         if (progress.cancelled()) break;
         frame(window.get(), session, controls, panel, presenter);
         context->check("view");
+        if (++frames == options.lose_after)
+            raster::check_status(GL_GUILTY_CONTEXT_RESET, 0, "view");
     }
 }
 
@@ -290,9 +294,8 @@ WindowCounts run_window(const Subject& subject,
         try {
             run.once();
             break;
-        } catch (const Error& e) {
-            const bool lost = std::string(e.what()).find("context was lost") != std::string::npos;
-            if (!lost || loss == kMostLosses) throw;
+        } catch (const raster::LostContext&) {
+            if (loss == kMostLosses) throw;
         }
     }
     run.answers.summarize(run.counts);

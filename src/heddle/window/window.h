@@ -10,6 +10,8 @@ namespace heddle::window {
 struct WindowOptions {
     std::int32_t width = 1280; ///< pixels
     std::int32_t height = 800;
+    std::int64_t lose_after =
+        0; ///< frames after which the context is taken for lost, once; 0: never
 };
 
 /// How a window answered.
@@ -17,6 +19,7 @@ struct WindowCounts {
     std::int64_t inputs = 0; ///< frames that showed what input changed
     double median_ms = 0.0;  ///< from the input to the picture that shows it
     double worst_ms = 0.0;
+    std::int64_t contexts = 0; ///< that were opened: one, and one more for each that was lost
     std::string driver;
 };
 

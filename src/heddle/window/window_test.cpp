@@ -1,0 +1,42 @@
+#include <heddle/window/window.h>
+
+#include <heddle/raster/context.h>
+#include <heddle/voxel/test_voxelize.h>
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <thread>
+
+// These need a display: tests/window_test.sh runs them under Xvfb.
+
+namespace heddle::window {
+namespace {
+
+TEST(Window, OpensAnewWhereTheContextIsLostAndEndsWhenItIsCancelled) {
+    if (std::getenv("DISPLAY") == nullptr) GTEST_SKIP() << "no display";
+    Subject subject;
+    subject.name = "fiber";
+    CurveSet set;
+    heddle::test::add_curve(set, {{-2, 0, 0}, {-1, 0, 0}, {1, 0, 0}, {2, 0, 0}});
+    set.default_radius = 0.2f;
+    subject.geometry = heddle::test::geometry_of(set);
+    Settings settings;
+    settings.framed = true;
+    settings.yarns.resize(1);
+    settings.yarns[0].radius = 2.0;
+    Progress progress;
+    std::thread closer([&] {
+        std::this_thread::sleep_for(std::chrono::seconds(3));
+        progress.cancel();
+    });
+    WindowCounts counts;
+    EXPECT_NO_THROW(counts = run_window(subject, settings,
+                                        {.width = 120, .height = 100, .lose_after = 3}, progress));
+    closer.join();
+    EXPECT_EQ(counts.contexts, 2);
+}
+
+} // namespace
+} // namespace heddle::window
