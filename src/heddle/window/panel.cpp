@@ -84,7 +84,7 @@ void voxel_controls(Session& session, Settings& s) {
         s.voxels.composition = static_cast<raster::Composition>(composition);
     }
     ImGui::Checkbox("only what is seen", &s.voxels.only_seen);
-    if (const VoxelJob* job = session.job(); job != nullptr) {
+    if (const Job* job = session.job(); job != nullptr) {
         ImGui::ProgressBar(static_cast<float>(job->part()), ImVec2(190.0f, 0.0f),
                            job->stage().c_str());
         ImGui::SameLine();

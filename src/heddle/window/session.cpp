@@ -5,6 +5,7 @@
 #include <heddle/io/output_file.h>
 #include <heddle/io/vdb/write_vdb.h>
 #include <heddle/window/save_scene.h>
+#include <heddle/window/voxelize_seen.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -118,8 +119,16 @@ viewer::ViewImage Session::draw_now(viewer::SliceTimes* times) {
     return target.image();
 }
 
+void Session::start(std::function<JobResult(Progress&)> run) {
+    if (job_) {
+        message_ = "one thing at a time: wait, or stop what runs";
+        return;
+    }
+    message_.clear();
+    job_ = std::make_unique<Job>(std::move(run));
+}
+
 void Session::voxelize() {
-    stop_job();
     if (!subject_.geometry) {
         message_ = "a volume is there already: open curves to voxelize them";
         return;
@@ -139,12 +148,11 @@ void Session::voxelize() {
         }
         options.bounds = seen;
     }
-    message_.clear();
-    job_ = std::make_unique<VoxelJob>(
-        VoxelRequest{.geometry = std::move(geometry),
-                     .options = std::move(options),
-                     .raster = settings_.voxels.raster,
-                     .raster_options = {.composition = settings_.voxels.composition}});
+    start([request = VoxelRequest{.geometry = std::move(geometry),
+                                  .options = std::move(options),
+                                  .raster = settings_.voxels.raster,
+                                  .raster_options = {.composition = settings_.voxels.composition}}](
+              Progress& progress) { return voxelize_seen(request, progress); });
 }
 
 void Session::stop_job() {
@@ -155,7 +163,7 @@ void Session::stop_job() {
 
 void Session::take_result() {
     if (!job_) return;
-    std::optional<VoxelResult> result = job_->poll();
+    std::optional<JobResult> result = job_->poll();
     if (!result) return;
     job_.reset();
     message_ = result->message;
@@ -190,29 +198,23 @@ void Session::write_picture() {
     });
 }
 
-void Session::save_voxels() {
+void Session::save(bool scene) {
     if (!has_voxels()) {
         message_ = "no voxels are there yet: voxelize first";
         return;
     }
-    attempt([&] {
-        Progress silent;
-        write_vdb(*subject_.levels, place_of(".vdb"), silent);
-        message_ = "saved " + place_of(".vdb");
-    });
-}
-
-void Session::save_scene() {
-    save_voxels();
-    if (message_.rfind("saved ", 0) != 0) return;
-    attempt([&] {
-        const std::string text =
-            scene_text(subject_.name + ".vdb", settings_.orbit.camera(), settings_.slices.light,
-                       picture_->fine().width(), picture_->fine().height());
-        OutputFile file(place_of(".toml"));
+    const std::string text =
+        scene ? scene_text(subject_.name + ".vdb", settings_.orbit.camera(), settings_.slices.light,
+                           picture_->fine().width(), picture_->fine().height())
+              : std::string();
+    start([levels = subject_.levels, text, volume = place_of(".vdb"),
+           place = place_of(".toml")](Progress& progress) -> JobResult {
+        write_vdb(*levels, volume, progress);
+        if (text.empty()) return {"saved " + volume, nullptr};
+        OutputFile file(place);
         file.write(text.data(), text.size());
         file.commit();
-        message_ = "saved " + place_of(".toml") + " and its .vdb";
+        return {"saved " + place + " and its .vdb", nullptr};
     });
 }
 

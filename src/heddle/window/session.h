@@ -3,11 +3,12 @@
 #include <heddle/raster/context.h>
 #include <heddle/viewer/slice_view.h>
 #include <heddle/voxel/voxel_grid.h>
+#include <heddle/window/job.h>
 #include <heddle/window/refiner.h>
 #include <heddle/window/settings.h>
-#include <heddle/window/voxel_job.h>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -56,19 +57,19 @@ public:
     [[nodiscard]] const Refiner& picture() const { return *picture_; }
     [[nodiscard]] bool busy() const { return job_ != nullptr || !picture_->done(); }
 
-    /// Starts to voxelize what is seen, or all; stops what runs.
+    /// Starts to voxelize what is seen, or all.
     void voxelize();
     void stop_job();
-    [[nodiscard]] const VoxelJob* job() const { return job_.get(); }
+    [[nodiscard]] const Job* job() const { return job_.get(); }
     [[nodiscard]] bool has_voxels() const { return subject_.levels != nullptr; }
     [[nodiscard]] bool has_slices() const { return slices_ != nullptr; }
 
     /// NAME.png: the picture, when it is whole.
     void save_picture();
-    /// NAME.vdb: the voxels.
-    void save_voxels();
-    /// NAME.toml and NAME.vdb.
-    void save_scene();
+    /// NAME.vdb: the voxels; on a thread, as voxelize().
+    void save_voxels() { save(false); }
+    /// NAME.vdb, and NAME.toml for `heddle render`.
+    void save_scene() { save(true); }
 
     void frame_all();
     [[nodiscard]] const std::string& message() const { return message_; }
@@ -83,7 +84,9 @@ private:
     void fit_slices();
     [[nodiscard]] viewer::Ball ball() const;
     void frame_first();
+    void start(std::function<JobResult(Progress&)> run);
     void take_result();
+    void save(bool scene);
     void write_picture();
     void show_voxels();
     template <typename Run>
@@ -97,7 +100,7 @@ private:
     std::vector<std::string> kinds_;
     std::unique_ptr<viewer::SliceView> slices_;
     std::unique_ptr<Refiner> picture_;
-    std::unique_ptr<VoxelJob> job_;
+    std::unique_ptr<Job> job_;
     bool picture_wanted_ = false;
     std::string message_;
 };

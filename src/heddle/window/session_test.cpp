@@ -87,6 +87,7 @@ TEST_F(SessionTest, VoxelizesWhatIsSeenByBothBackendsAndSavesIt) {
         const VoxelGridInfo& info = session.subject().levels->front()->info();
         EXPECT_NEAR(info.lattice.voxel_size.x, 2.0 * 3.0 / kSize, 1e-12);
         session.save_scene();
+        ASSERT_TRUE(settle(session));
         EXPECT_EQ(session.message().rfind("saved ", 0), 0u) << session.message();
         const std::vector<VoxelGridInfo> saved = read_infos((folder_ / "fiber.vdb").string());
         EXPECT_EQ(saved.front().voxel_count, info.voxel_count);

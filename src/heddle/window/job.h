@@ -1,0 +1,51 @@
+#pragma once
+
+#include <heddle/base/progress.h>
+#include <heddle/voxel/voxel_grid.h>
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+namespace heddle::window {
+
+/// What came of a job.
+struct JobResult {
+    std::string message;                       ///< one line
+    std::shared_ptr<const VoxelLevels> levels; ///< new voxels; null: none, or it failed
+};
+
+/// Long work on a thread of its own.
+class Job final : public Progress {
+public:
+    /// @param run  what it throws becomes the message
+    explicit Job(std::function<JobResult(Progress&)> run);
+    /// Stops it.
+    ~Job() override;
+    Job(const Job&) = delete;
+    Job& operator=(const Job&) = delete;
+
+    /// What it does, and how much of that is done, of 1.
+    [[nodiscard]] std::string stage() const;
+    [[nodiscard]] double part() const;
+    /// The result, once: when it is there.
+    [[nodiscard]] std::optional<JobResult> poll();
+
+    void begin(std::string_view stage, std::string_view unit, std::int64_t total) override;
+    void advance(std::int64_t units) override { done_ += units; }
+
+private:
+    mutable std::mutex naming_;
+    std::string stage_;
+    std::atomic<std::int64_t> total_{0};
+    std::atomic<std::int64_t> done_{0};
+    JobResult result_;
+    std::atomic<bool> finished_{false};
+    std::thread thread_; ///< last: it uses the rest
+};
+
+} // namespace heddle::window

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <heddle/geom/geometry.h>
+#include <heddle/raster/voxelize_slices.h>
+#include <heddle/voxel/voxelize.h>
+#include <heddle/window/job.h>
+
+namespace heddle::window {
+
+/// What is to be voxelized, and how.
+struct VoxelRequest {
+    Geometry geometry;
+    VoxelizeOptions options;
+    bool raster = false; ///< slices drawn by OpenGL, in a context of its own; else fibers
+    raster::RasterOptions raster_options;
+};
+
+/// Voxels with all their levels.
+/// @throws Error  as plan_voxelize, voxelize and raster::voxelize_slices
+[[nodiscard]] JobResult voxelize_seen(const VoxelRequest& request, Progress& progress);
+
+} // namespace heddle::window
