@@ -41,11 +41,18 @@ Vec3d axis_of(const std::string& name) {
     return {name == "x" ? 1.0 : 0.0, name == "y" ? 1.0 : 0.0, name == "z" ? 1.0 : 0.0};
 }
 
+/// The axis that was asked for, or as preview has it: z of what lies flat.
+Vec3d up_of(const Arguments& arguments, Vec3d size) {
+    const std::string name = arguments.text("up");
+    if (name != "auto") return axis_of(name);
+    return axis_of(size.z < 0.5 * size.x && size.z < 0.5 * size.y ? "z" : "y");
+}
+
 /// About the unit ball.
-viewer::Orbit orbit_of(const Arguments& arguments, double aspect) {
+viewer::Orbit orbit_of(const Arguments& arguments, const window::Subject& subject, double aspect) {
     constexpr double kDegree = std::numbers::pi / 180.0;
     viewer::Orbit orbit{.from = direction(arguments, "from"),
-                        .up = axis_of(arguments.text("up")),
+                        .up = up_of(arguments, window::bounds_of(subject).size()),
                         .view_angle = arguments.number("view-angle") * kDegree};
     orbit.frame({.radius = 1.0}, aspect);
     if (arguments.given("target")) orbit.target = direction(arguments, "target");
@@ -140,10 +147,10 @@ window::Subject subject_of(const Arguments& arguments, Report& report) {
     return out;
 }
 
-window::Settings settings_of(const Arguments& arguments) {
+window::Settings settings_of(const Arguments& arguments, const window::Subject& subject) {
     const std::vector<double> size = arguments.numbers("size", 'x');
     window::Settings out;
-    out.orbit = orbit_of(arguments, size[0] / size[1]);
+    out.orbit = orbit_of(arguments, subject, size[0] / size[1]);
     out.target_given = arguments.given("target");
     out.framed = true;
     out.slices = look_of(arguments);
@@ -161,7 +168,7 @@ void run_view(const Arguments& arguments, Report& report, ProgressBar& bar) {
     bar.begin("read", "files", 1);
     const window::Subject subject = subject_of(arguments, report);
     make_folder(subject.folder);
-    const window::Settings settings = settings_of(arguments);
+    const window::Settings settings = settings_of(arguments, subject);
     if (headless)
         draw_frames(subject, settings, arguments, report, bar);
     else
@@ -190,8 +197,8 @@ Command view_command() {
     const std::vector<Option> more{
         {"--from", "X,Y,Z", "0.3,-0.6,1", numbers(3, 3, -kInf, kInf), "any length",
          "direction from the object to the eye, of the first picture"},
-        {"--up", "AXIS", "y", one_of({"x", "y", "z"}), "",
-         "points up in the picture; pictures go around it"},
+        {"--up", "AXIS", "auto", one_of({"auto", "x", "y", "z"}), "",
+         "points up in the picture; pictures go around it; auto: z of what lies flat, else y"},
         {"--light", "X,Y,Z", "-0.5,0.6,1", numbers(3, 3, -kInf, kInf), "any length",
          "direction from the object to the light"},
         {"--target", "X,Y,Z", "(the middle of all)", numbers(3, 3, -kInf, kInf), "scene units",

@@ -23,6 +23,16 @@ bool same_picture(const Settings& a, const Settings& b) {
 
 } // namespace
 
+Bounds bounds_of(const Subject& subject) {
+    Bounds out;
+    if (subject.geometry) {
+        for (const CurveSet& set : subject.geometry->curves) {
+            for (const Vec3f& p : set.points) out.grow(to_double(p));
+        }
+    }
+    return out;
+}
+
 Session::Session(const raster::Context& context,
                  Subject subject,
                  const Settings& settings,
@@ -134,6 +144,7 @@ void Session::voxelize() {
         return;
     }
     Geometry geometry = edited(*subject_.geometry, settings_.yarns);
+    multiply_fibers(geometry, settings_.slices.opacity);
     const double edge = settings_.orbit.pixel(picture_->fine().height()) * settings_.voxels.edge_px;
     VoxelizeOptions options;
     options.voxel_size = {edge, edge, edge};

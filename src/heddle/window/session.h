@@ -25,6 +25,9 @@ struct Subject {
     std::string folder = ".";      ///< where files are saved
 };
 
+/// A box around the control points, or the voxels where there are none.
+[[nodiscard]] Bounds bounds_of(const Subject& subject);
+
 /// What a view holds and does, without a window: settings in, pictures, voxels and files out. What fails
 /// leaves one line as message(), and everything as it was.
 class Session {

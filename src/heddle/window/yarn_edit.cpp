@@ -62,6 +62,13 @@ Geometry edited(const Geometry& geometry, const std::vector<YarnEdit>& edits) {
     return out;
 }
 
+void multiply_fibers(Geometry& geometry, double factor) {
+    for (YarnType& yarn : geometry.yarns) {
+        const double count = std::round(factor * static_cast<double>(yarn.slice_fibers));
+        yarn.slice_fibers = static_cast<std::int32_t>(std::clamp(count, 1.0, 1.0e6));
+    }
+}
+
 Bounds seen_bounds(const Geometry& geometry, const CameraView& camera, double aspect) {
     const viewer::PictureAxes axes(camera.eye - camera.target, camera.up);
     const double tall =

@@ -21,6 +21,9 @@ struct YarnEdit {
 /// @param edits  one a kind
 [[nodiscard]] Geometry edited(const Geometry& geometry, const std::vector<YarnEdit>& edits);
 
+/// `factor` times as many fibers stand for each slice, one at least: what SliceLook::opacity is to a picture.
+void multiply_fibers(Geometry& geometry, double factor);
+
 /// A box around the control points that a camera sees, grown by the yarns' radius; empty where it sees none.
 /// @param aspect  width over height of the picture
 [[nodiscard]] Bounds seen_bounds(const Geometry& geometry, const CameraView& camera, double aspect);

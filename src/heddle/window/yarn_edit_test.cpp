@@ -49,6 +49,15 @@ TEST(YarnEdit, TintsOverTheMaterialsColour) {
     EXPECT_TRUE(edited(from, {{}, {}}).curves[0].color.empty());
 }
 
+TEST(YarnEdit, DensityIsAsManyFibersMore) {
+    Geometry geometry = two_kinds();
+    geometry.yarns[0].slice_fibers = 90;
+    multiply_fibers(geometry, 1.5);
+    EXPECT_EQ(geometry.yarns[0].slice_fibers, 135);
+    multiply_fibers(geometry, 1e-9);
+    EXPECT_EQ(geometry.yarns[0].slice_fibers, 1);
+}
+
 TEST(YarnEdit, SeenBoundsHoldWhatTheCameraSees) {
     const Geometry from = two_kinds();
     viewer::Orbit orbit{.from = {0.0, 0.0, 1.0},
