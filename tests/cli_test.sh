@@ -73,6 +73,12 @@ for threads in 1 2; do
 done
 works info raster1.vdb --json && hash1=$(json content_hash)
 works info raster2.vdb --json && [ "$(json content_hash)" = "$hash1" ] || wrong "raster: other bits with 2 threads"
+fails 2 "--raster-path is of no use here" voxelize knit.bcc -o a.vdb --raster-path compute
+for path in fragment compute; do
+    works voxelize knit.bcc --yarn slice.toml --voxels 32 --backend raster --raster-path $path -o path.vdb --json
+    [ "$(json raster_path)" = $path ] || wrong "raster: path $path was not taken"
+    works info path.vdb --json && [ "$(json content_hash)" = "$hash1" ] || wrong "raster: other bits by $path shaders"
+done
 
 works export raster1.vdb --to mitsuba06 -o flakes
 works info flakes/volume.vol

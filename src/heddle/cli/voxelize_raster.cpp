@@ -3,6 +3,7 @@
 #include <heddle/raster/voxelize_slices.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 
 namespace heddle::cli {
@@ -13,11 +14,22 @@ const std::vector<std::string>& composition_names() {
     return names; // in the order of raster::Composition
 }
 
+const std::vector<std::string>& path_names() {
+    static const std::vector<std::string> names{"auto", "fragment", "compute"};
+    return names; // in the order of raster::RasterPath
+}
+
+/// Which of the names an option was given.
+std::ptrdiff_t
+choice(const Arguments& arguments, const char* option, const std::vector<std::string>& names) {
+    return std::find(names.begin(), names.end(), arguments.text(option)) - names.begin();
+}
+
 raster::RasterOptions options_from(const Arguments& arguments) {
     raster::RasterOptions options;
-    const std::vector<std::string>& names = composition_names();
-    const auto name = std::find(names.begin(), names.end(), arguments.text("composition"));
-    options.composition = static_cast<raster::Composition>(name - names.begin());
+    options.composition =
+        static_cast<raster::Composition>(choice(arguments, "composition", composition_names()));
+    options.path = static_cast<raster::RasterPath>(choice(arguments, "raster-path", path_names()));
     if (arguments.given("slice-spacing")) {
         options.slice_spacing = arguments.number("slice-spacing");
     }
@@ -26,6 +38,7 @@ raster::RasterOptions options_from(const Arguments& arguments) {
 
 void report_counts(Report& report, const raster::RasterCounts& counts) {
     report.text("driver", counts.driver);
+    report.text("raster path", path_names()[static_cast<std::size_t>(counts.path)]);
     report.count("slices", counts.slices);
     report.count("bricks", counts.bricks, "of 8 voxels each way, touched by slices");
     report.count("draw batches", counts.batches);
@@ -45,6 +58,8 @@ std::vector<Option> raster_options() {
          "last, average or largest alpha of the slices in it"},
         {"--slice-spacing", "S", "(half of the yarn's radius)", positive(), "scene units",
          "of --backend raster: between slices, at most"},
+        {"--raster-path", "PATH", "auto", one_of(path_names()), "",
+         "of --backend raster: fragment or compute shaders, to the same voxels; auto: the faster"},
     };
 }
 
@@ -54,7 +69,7 @@ bool uses_raster(const Arguments& arguments) {
 
 void prepare_backend(Geometry& geometry, const Arguments& arguments) {
     if (!uses_raster(arguments)) {
-        for (const char* option : {"composition", "slice-spacing"}) {
+        for (const char* option : {"composition", "slice-spacing", "raster-path"}) {
             if (!arguments.given(option)) continue;
             throw UsageError(str("--", option, " is of no use here: it needs --backend raster"));
         }

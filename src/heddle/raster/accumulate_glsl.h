@@ -4,7 +4,7 @@
 
 namespace heddle::raster {
 
-/// GLSL, fragment: `accumulate`: every column's centre ray through the fibers themselves.
+/// GLSL: `accumulate`: every column's centre ray through the fibers themselves.
 inline constexpr std::string_view kAccumulateGlsl = R"(
 // Columns of axis 0 have bit z n + y, of 1 z n + x, of 2 y n + x.
 uint column_bit(ivec3 sub) {
@@ -78,8 +78,7 @@ void advance(inout March m, float side, float end, float speed, float least) {
     }
 }
 
-void main() {
-    ivec2 pixel = pixel_of(gl_FragCoord.xy);
+void draw_pixel(ivec2 pixel) {
     vec2 range = start_column(pixel);
     if (!(range.x < range.y)) return;
     // how fast the ray moves over the section, at most

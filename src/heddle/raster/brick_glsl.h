@@ -68,13 +68,31 @@ void main() {
 }
 )";
 
+/// GLSL, compute: invocations that share a stretch of a list. Here 8 are the fastest: a vector of the
+/// software driver. Where a slab is a few pixels, most of 32 would have none.
+inline constexpr std::string_view kSlabLanesGlsl = R"(
+const uint kSlabLanes = 8u;
+)";
+
 /// GLSL: one slice an item; lists those whose stretch may touch a brick of the batch, for an
-/// indirect draw of four corners each.
+/// indirect draw of four corners each, or groups of kSlabLanes invocations each. Needs kSlabLanesGlsl.
 inline constexpr std::string_view kListGlsl = R"(
 layout(std430, binding = 1) readonly buffer Slots { uint slot_of[]; };
 layout(std430, binding = 2) writeonly buffer List { uint list[]; };
-layout(std430, binding = 3) buffer Draw { uint corners; uint listed; uint first; uint base; };
+layout(std430, binding = 3) buffer Draw {
+    uint corners; uint listed; uint first; uint base;
+    uint groups_x; uint groups_y; uint groups_z;
+};
 uniform uint slice_count;
+const uint kGroupsAcross = 32768u; // every driver takes 65535 along an axis
+
+void add_to_list(uint number) {
+    uint rank = atomicAdd(listed, 1u);
+    list[rank] = number;
+    uint group = rank * kSlabLanes / gl_WorkGroupSize.x;
+    atomicMax(groups_x, min(group + 1u, kGroupsAcross));
+    atomicMax(groups_y, group / kGroupsAcross + 1u);
+}
 
 bool wanted(BrickBox box) {
     for (int x = box.lo.x; x <= box.hi.x; ++x) {
@@ -90,7 +108,7 @@ bool wanted(BrickBox box) {
 
 void main() {
     if (item() + 1u >= slice_count || (slices[item()].flags & kLastOfYarn) != 0u) return;
-    if (wanted(bricks_of(slices[item()], slices[item() + 1u]))) list[atomicAdd(listed, 1u)] = item();
+    if (wanted(bricks_of(slices[item()], slices[item() + 1u]))) add_to_list(item());
 }
 )";
 

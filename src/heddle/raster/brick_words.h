@@ -19,6 +19,7 @@ struct WordForm {
     int weight_bits =
         0; ///< a directed area of 1 unit^2 weighs 2^weight_bits, in each of three passes
     std::uint32_t material = 0;
+    friend bool operator==(const WordForm&, const WordForm&) = default;
 };
 
 /// Adds a brick's voxels to a block's sums.

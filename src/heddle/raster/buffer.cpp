@@ -52,6 +52,7 @@ void Buffer::bind_uniform(std::uint32_t binding) const {
 
 void Buffer::bind_indirect() const {
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, id_);
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, id_);
 }
 
 void Buffer::clear(std::uint32_t word) const {

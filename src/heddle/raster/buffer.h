@@ -25,7 +25,7 @@ public:
     void bind_storage(std::uint32_t binding) const;
     /// As uniform block `binding`.
     void bind_uniform(std::uint32_t binding) const;
-    /// As source of indirect draws.
+    /// As source of indirect draws and dispatches.
     void bind_indirect() const;
     /// Sets all its words of 32 bits.
     void clear(std::uint32_t word = 0) const;

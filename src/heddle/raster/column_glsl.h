@@ -4,36 +4,97 @@
 
 namespace heddle::raster {
 
-/// GLSL, vertex: the stretch seen along `axis`, as a quad that holds it. Needs kStretchGlsl.
-inline constexpr std::string_view kQuadGlsl = R"(
+/// GLSL, all stages: the stretch seen along `axis`, as a rectangle that holds it. Needs kStretchGlsl,
+/// in fragments kSlabGlsl.
+inline constexpr std::string_view kRectangleGlsl = R"(
 uniform int axis;
-uniform ivec3 view_lo;  // subvoxels
+uniform ivec3 view_lo; // subvoxels
 uniform ivec3 view_size;
 
 vec2 across(vec3 v) { return axis == 0 ? v.yz : axis == 1 ? v.xz : v.xy; }
+ivec2 across(ivec3 v) { return axis == 0 ? v.yz : axis == 1 ? v.xz : v.xy; }
 
-void main() {
-    Stretch s = give_stretch();
-    vec2 t = across(s.along);
+struct Rectangle { vec2 middle, way, size; }; // units; size: half, along the way and square to it
+
+// Drawn are the pixels in the rectangle of the first pad. What finds pixels takes the second, larger
+// by more than what it rounds: so every way of finding them draws the same.
+const float kDrawnPad = 0.5; // longest edges of a subvoxel
+const float kFoundPad = 0.625;
+
+Rectangle rectangle_of_slab(float pad) {
+    vec3 d = place_b.xyz - place_a.xyz;
+    float n = length(d);
+    vec3 unit = n > 0.0 ? d / n : tangent_a.xyz;
+    float bent = length(tangent_b.xyz - tangent_a.xyz);
+    float half_long = 0.5 * n + sizes.z * bent;
+    vec2 t = across(unit);
     float tilt = length(t);
-    vec2 e = tilt > 1e-6 ? t / tilt : vec2(1.0, 0.0);
-    // a disc seen along the axis is an ellipse with these two axes; half a subvoxel is for rounding
-    float pad = 0.5 * max(edge.x, max(edge.y, edge.z));
-    float half_e = s.reach * abs(s.along[axis]) + half_length(s.a, s.b, s.reach) * tilt + pad;
-    float half_d = s.reach + half_length(s.a, s.b, s.reach) * length(s.b.tangent - s.a.tangent) + pad;
-    vec2 at = across(0.5 * (s.a.center + s.b.center)) + corner().x * half_e * e +
-              corner().y * half_d * vec2(-e.y, e.x);
-    vec2 pixel = at / across(edge) - across(vec3(view_lo));
-    gl_Position = vec4(2.0 * pixel / across(vec3(view_size)) - 1.0, 0.0, 1.0);
+    Rectangle r;
+    r.middle = across(0.5 * (place_a.xyz + place_b.xyz));
+    r.way = tilt > 1e-6 ? t / tilt : vec2(1.0, 0.0);
+    // a disc seen along the axis is an ellipse with these two axes
+    r.size = vec2(sizes.z * abs(unit[axis]) + half_long * tilt, sizes.z + half_long * bent) +
+             pad * max(edge.x, max(edge.y, edge.z));
+    return r;
 }
 )";
 
-/// GLSL, fragment: columns of subvoxels and the sums of voxels. Needs kSlabGlsl.
+/// GLSL, vertex, last: a quad that finds the stretch's pixels.
+inline constexpr std::string_view kQuadGlsl = R"(
+void main() {
+    give_stretch();
+    Rectangle r = rectangle_of_slab(kFoundPad);
+    vec2 at = r.middle + corner().x * r.size.x * r.way +
+              corner().y * r.size.y * vec2(-r.way.y, r.way.x);
+    vec2 pixel = at / across(edge) - vec2(across(view_lo));
+    gl_Position = vec4(2.0 * pixel / vec2(across(view_size)) - 1.0, 0.0, 1.0);
+}
+)";
+
+/// GLSL, fragment, last: a pixel of the quad.
+inline constexpr std::string_view kFragmentGlsl = R"(
+void main() { draw_pixel(ivec2(floor(gl_FragCoord.xy)) + across(view_lo)); }
+)";
+
+/// GLSL, compute, last: the same pixels, row by row of the rectangle.
+inline constexpr std::string_view kSlabLoopGlsl = R"(
+layout(std430, binding = 4) readonly buffer Draw { uint corners; uint listed; };
+
+float away_from_zero(float x) { return x < 0.0 ? min(x, -1e-6) : max(x, 1e-6); }
+
+// Where a row `y` from the middle enters the rectangle: the later of two strips that cross.
+float left_end(Rectangle r, float y) {
+    vec2 e = vec2(away_from_zero(r.way.x), away_from_zero(r.way.y));
+    return max(-y * e.y / e.x - r.size.x / abs(e.x), y * e.x / e.y - r.size.y / abs(e.y));
+}
+
+void main() {
+    uint rank = item() / kSlabLanes;
+    if (rank >= listed) return;
+    load_slab(list[rank]);
+    Rectangle r = rectangle_of_slab(kFoundPad);
+    vec2 px = across(edge);
+    ivec2 view_end = across(view_lo + view_size);
+    vec2 e = abs(r.way);
+    float high = e.y * r.size.x + e.x * r.size.y;
+    int first = max(int(floor((r.middle.y - high) / px.y - 0.5)), across(view_lo).y);
+    int end = min(int(ceil((r.middle.y + high) / px.y + 0.5)), view_end.y);
+    float wide = min(r.size.x / max(e.x, 1e-6), r.size.y / max(e.y, 1e-6));
+    int width = int(2.0 * wide / px.x) + 2;
+    for (int i = int(item() % kSlabLanes); i < (end - first) * width; i += int(kSlabLanes)) {
+        int y = first + i / width;
+        float left = r.middle.x + left_end(r, (float(y) + 0.5) * px.y - r.middle.y);
+        int x = int(floor(left / px.x - 0.5)) + i % width;
+        if (x >= across(view_lo).x && x < view_end.x) draw_pixel(ivec2(x, y));
+    }
+}
+)";
+
+/// GLSL, fragment and compute: columns of subvoxels and the sums of voxels. Needs kSlabGlsl and
+/// kRectangleGlsl.
 inline constexpr std::string_view kColumnGlsl = R"(
 layout(std430, binding = 1) readonly buffer Slots { uint slot_of[]; };
 layout(std430, binding = 3) buffer Pool { uint pool[]; };
-uniform int axis;
-uniform ivec3 view_lo;
 uniform float weight_scale; // of 1 unit^3 over a fiber's radius in units
 
 vec3 unit_axis() { return axis == 0 ? vec3(1, 0, 0) : axis == 1 ? vec3(0, 1, 0) : vec3(0, 0, 1); }
@@ -43,14 +104,12 @@ vec3 lift(ivec2 pixel) {
     return (axis == 0 ? vec3(0.0, p) : axis == 1 ? vec3(p.x, 0.0, p.y) : vec3(p, 0.0)) * edge;
 }
 
-ivec2 pixel_of(vec2 fragment) {
-    ivec3 lo = view_lo;
-    ivec2 first = axis == 0 ? lo.yz : axis == 1 ? lo.xz : lo.xy;
-    return ivec2(floor(fragment)) + first;
-}
-
 // Starts the ray through a column's centre; its part between the two slices.
 vec2 start_column(ivec2 pixel) {
+    Rectangle r = rectangle_of_slab(kDrawnPad);
+    vec2 from = across(lift(pixel)) - r.middle;
+    vec2 off = abs(vec2(dot(from, r.way), dot(from, vec2(-r.way.y, r.way.x))));
+    if (any(greaterThan(off, r.size))) return vec2(0.0);
     start(lift(pixel), unit_axis());
     vec2 range = range_of_slab();
     // not cut to the region: where steps start would show in its voxels

@@ -4,7 +4,7 @@
 
 namespace heddle::raster {
 
-/// GLSL, fragment: `last`, `average`, `max`: the slice's own alpha at subvoxels, as one density a voxel.
+/// GLSL: `last`, `average`, `max`: the slice's own alpha at subvoxels, as one density a voxel.
 inline constexpr std::string_view kComposeGlsl = R"(
 uniform int policy;       // 0 last, 1 average, 2 max
 uniform int pick;         // of `last`: 0 finds which fragment is the last, 1 takes its alpha
@@ -26,8 +26,7 @@ void compose(uint words, uint alpha, ivec3 at) {
     if (policy == 2) atomicMax(pool[words], alpha);
 }
 
-void main() {
-    ivec2 pixel = pixel_of(gl_FragCoord.xy);
+void draw_pixel(ivec2 pixel) {
     vec2 range = start_column(pixel);
     if (!(range.x < range.y)) return;
     int shift = subvoxels == 8 ? 3 : subvoxels == 4 ? 2 : subvoxels == 2 ? 1 : 0;

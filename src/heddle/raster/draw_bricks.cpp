@@ -1,15 +1,10 @@
 #include <heddle/raster/draw_bricks.h>
 
 #include <heddle/base/error.h>
-#include <heddle/raster/accumulate_glsl.h>
-#include <heddle/raster/brick_glsl.h>
-#include <heddle/raster/column_glsl.h>
-#include <heddle/raster/compose_glsl.h>
-#include <heddle/raster/slab_glsl.h>
-#include <heddle/raster/slice_glsl.h>
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 
 namespace heddle::raster {
@@ -17,6 +12,7 @@ namespace {
 
 constexpr std::size_t kBrickBytes = kBrickWords * sizeof(std::uint32_t);
 constexpr std::size_t kBlockBricks = 64; ///< most that one block has
+constexpr std::size_t kTriedBlocks = 16; ///< on which paths are timed
 
 std::vector<std::uint32_t> materials_of(std::span<const SliceChunk> chunks) {
     std::vector<std::uint32_t> out;
@@ -38,14 +34,6 @@ std::uint32_t most_slices(std::span<const SliceChunk> chunks) {
     return most;
 }
 
-Program make_draw(Composition composition) {
-    const std::string shared = std::string(kSliceGlsl) + std::string(kBrickGlsl);
-    const std::string_view body =
-        composition == Composition::Accumulate ? kAccumulateGlsl : kComposeGlsl;
-    return Program::draw("draw slices", shared, std::string(kStretchGlsl) + std::string(kQuadGlsl),
-                         std::string(kSlabGlsl) + std::string(kColumnGlsl) + std::string(body));
-}
-
 void check_last(std::span<const SliceChunk> chunks, Composition composition) {
     std::uint64_t total = 0;
     for (const SliceChunk& c : chunks) total += c.count;
@@ -58,34 +46,35 @@ void check_last(std::span<const SliceChunk> chunks, Composition composition) {
 } // namespace
 
 BrickDrawer::BrickDrawer(const Context& context,
+                         SlabPrograms& programs,
                          const BrickGrid& grid,
                          const SectionLayers& sections,
                          std::span<const SliceChunk> chunks,
                          const DrawOptions& options)
     : context_(context),
+      programs_(programs),
       grid_(grid),
       chunks_(chunks),
       options_(options),
       capacity_(capacity_of(context, options.memory_bytes, materials_of(chunks).size())),
       materials_(materials_of(chunks)),
       textures_(sections),
-      list_program_(Program::compute(
-          "list slices", std::string(kSliceGlsl) + std::string(kBrickGlsl), kListGlsl)),
-      draw_program_(make_draw(options.composition)),
       slots_(grid.size()),
       slot_buffer_("slots of bricks", grid.size() * sizeof(std::uint32_t)),
       pool_("sums of bricks", capacity_ * kBrickBytes),
       list_("a batch's slices", most_slices(chunks) * sizeof(std::uint32_t)),
-      command_("a batch's draw", 4 * sizeof(std::uint32_t)) {
-    check_last(chunks, options.composition);
-    grid.set_uniforms(list_program_);
-    grid.set_uniforms(draw_program_);
-    draw_program_.set("weight_scale", std::ldexp(1.0f, options.weight_bits));
-    draw_program_.set("policy", static_cast<std::int32_t>(options.composition));
+      command_("a batch's draw", 7 * sizeof(std::uint32_t)) {
+    check_last(chunks, programs.composition());
+    grid.set_uniforms(programs.list());
 }
 
-BrickDrawer::View BrickDrawer::choose(std::span<const TouchedBlock> blocks,
-                                      DrawnBatch& batch) const {
+void BrickDrawer::use_path(RasterPath path) {
+    pass_ = &programs_.pass(path);
+    grid_.set_uniforms(pass_->program());
+    pass_->program().set("weight_scale", std::ldexp(1.0f, options_.weight_bits));
+}
+
+SlabView BrickDrawer::choose(std::span<const TouchedBlock> blocks, DrawnBatch& batch) const {
     const std::int32_t n = grid_.units.n;
     Vec3i lo;
     Vec3i hi;
@@ -123,53 +112,68 @@ void BrickDrawer::set_slots(std::span<const TouchedBlock> blocks, const DrawnBat
 }
 
 void BrickDrawer::list_slices(const SliceChunk& chunk) {
-    constexpr std::array<std::uint32_t, 4> kNone{4, 0, 0, 0}; // corners, quads, first, base
+    constexpr std::array<std::uint32_t, 7> kNone{4, 0, 0, 0, 0, 0, 1}; // as kListGlsl has it
     command_.write(std::as_bytes(std::span(kNone)));
     list_.bind_storage(2);
     command_.bind_storage(3);
-    list_program_.set("slice_count", chunk.count);
-    list_program_.dispatch(chunk.count);
+    programs_.list().set("slice_count", chunk.count);
+    programs_.list().dispatch(chunk.count);
     finish_writes();
 }
 
-void BrickDrawer::draw_chunk(const SliceChunk& chunk, const View& view) {
+void BrickDrawer::draw_chunk(const SliceChunk& chunk, const SlabView& view) {
     chunk.slices.bind_storage(0);
     slot_buffer_.bind_storage(1);
     list_slices(chunk);
-    draw_program_.use();
-    draw_program_.set("view_lo", view.lo);
-    draw_program_.set("view_size", view.size);
-    draw_program_.set("first_slice", chunk.first);
+    pass_->program().set("first_slice", chunk.first);
     pool_.bind_storage(3);
     textures_.bind();
-    command_.bind_indirect();
-    for (std::int32_t axis = 0; axis < 3; ++axis) {
-        draw_program_.set("axis", axis);
-        frame_.bind(axis == 0 ? view.size.y : view.size.x, axis == 2 ? view.size.y : view.size.z);
-        EmptyFrame::draw_indirect();
-    }
+    pass_->draw(command_, view);
 }
 
-void BrickDrawer::draw_material(std::uint32_t material, const View& view) {
+void BrickDrawer::draw_material(std::uint32_t material, const SlabView& view) {
     for (const SliceChunk& chunk : chunks_) {
         if (chunk.material == material) draw_chunk(chunk, view);
     }
 }
 
+RasterPath BrickDrawer::try_paths(std::span<const TouchedBlock> blocks, std::size_t begin) {
+    using Clock = std::chrono::steady_clock;
+    const auto few = blocks.first(std::min(blocks.size(), begin + kTriedBlocks));
+    std::array<Clock::duration, 2> time{};
+    std::array<DrawnBatch, 2> drawn;
+    for (std::size_t i = 0; i < 2; ++i) {
+        use_path(i == 0 ? RasterPath::Fragment : RasterPath::Compute);
+        (void)draw_batch(few, begin); // a driver may compile when it first draws
+        const auto start = Clock::now();
+        drawn[i] = draw_batch(few, begin);
+        time[i] = Clock::now() - start;
+    }
+    // a driver that rounds differently in them: a choice by the clock would show in the voxels
+    const bool same = drawn[0].materials == drawn[1].materials;
+    return same && time[1] < time[0] ? RasterPath::Compute : RasterPath::Fragment;
+}
+
 DrawnBatch BrickDrawer::draw(std::span<const TouchedBlock> blocks, std::size_t begin) {
+    if (programs_.path() == RasterPath::Auto) programs_.choose(try_paths(blocks, begin));
+    use_path(programs_.path());
+    return draw_batch(blocks, begin);
+}
+
+DrawnBatch BrickDrawer::draw_batch(std::span<const TouchedBlock> blocks, std::size_t begin) {
     DrawnBatch batch{.begin = begin, .end = begin, .first_slot = {}, .materials = {}};
-    const View view = choose(blocks, batch);
+    const SlabView view = choose(blocks, batch);
     set_slots(blocks, batch);
     for (const std::uint32_t material : materials_) {
         pool_.clear();
-        const int picks = options_.composition == Composition::Last ? 2 : 1;
+        const int picks = programs_.composition() == Composition::Last ? 2 : 1;
         for (std::int32_t pick = 0; pick < picks; ++pick) {
-            draw_program_.set("pick", pick);
+            pass_->program().set("pick", pick);
             draw_material(material, view);
             finish_writes();
         }
         DrawnMaterial drawn{.form = {.subvoxels = grid_.units.n,
-                                     .composition = options_.composition,
+                                     .composition = programs_.composition(),
                                      .weight_bits = options_.weight_bits,
                                      .material = material},
                             .words = std::vector<std::uint32_t>(batch.bricks * kBrickWords)};

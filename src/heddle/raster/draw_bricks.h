@@ -2,6 +2,7 @@
 
 #include <heddle/raster/brick_grid.h>
 #include <heddle/raster/brick_words.h>
+#include <heddle/raster/slab_pass.h>
 #include <heddle/raster/texture.h>
 
 #include <cstdint>
@@ -14,6 +15,7 @@ namespace heddle::raster {
 struct DrawnMaterial {
     WordForm form;
     std::vector<std::uint32_t> words; ///< kBrickWords a slot
+    friend bool operator==(const DrawnMaterial&, const DrawnMaterial&) = default;
 };
 
 /// Sums of blocks [begin, end) of a list.
@@ -26,45 +28,45 @@ struct DrawnBatch {
 
 /// How bricks are drawn.
 struct DrawOptions {
-    Composition composition = Composition::Accumulate;
     int weight_bits = 0;
     std::int64_t memory_bytes = 0; ///< of a batch's sums, at most; a block's at least
 };
 
 /// Draws slices along three axes into the sums of bricks, a batch of blocks at a time. Needs the
-/// Context, grid and chunks while it lives.
+/// Context, programs, grid and chunks while it lives.
 class BrickDrawer {
 public:
     /// @throws Error  OutOfMemory; Unsupported: `Last` with more than 2^23 slices
     BrickDrawer(const Context& context,
+                SlabPrograms& programs,
                 const BrickGrid& grid,
                 const SectionLayers& sections,
                 std::span<const SliceChunk> chunks,
                 const DrawOptions& options);
 
     /// Draws as many blocks from `begin` on as memory and the driver's largest view take, one at least.
+    /// Where no path is chosen yet, tries both on a few blocks and chooses the faster.
     [[nodiscard]] DrawnBatch draw(std::span<const TouchedBlock> blocks, std::size_t begin);
 
 private:
-    struct View {
-        Vec3i lo, size; ///< subvoxels, from the origin
-    };
-    [[nodiscard]] View choose(std::span<const TouchedBlock> blocks, DrawnBatch& batch) const;
+    [[nodiscard]] SlabView choose(std::span<const TouchedBlock> blocks, DrawnBatch& batch) const;
     void set_slots(std::span<const TouchedBlock> blocks, const DrawnBatch& batch);
-    void draw_material(std::uint32_t material, const View& view);
-    void draw_chunk(const SliceChunk& chunk, const View& view);
+    void use_path(RasterPath path);
+    [[nodiscard]] RasterPath try_paths(std::span<const TouchedBlock> blocks, std::size_t begin);
+    [[nodiscard]] DrawnBatch draw_batch(std::span<const TouchedBlock> blocks, std::size_t begin);
+    void draw_material(std::uint32_t material, const SlabView& view);
+    void draw_chunk(const SliceChunk& chunk, const SlabView& view);
     void list_slices(const SliceChunk& chunk);
 
     const Context& context_;
+    SlabPrograms& programs_;
     const BrickGrid& grid_;
     std::span<const SliceChunk> chunks_;
     DrawOptions options_;
     std::size_t capacity_; ///< bricks of a batch
     std::vector<std::uint32_t> materials_;
     SectionTextures textures_;
-    EmptyFrame frame_;
-    Program list_program_;
-    Program draw_program_;
+    const SlabPass* pass_ = nullptr;
     std::vector<std::uint32_t> slots_; ///< by brick: slot + 1, or 0
     Buffer slot_buffer_;
     Buffer pool_;

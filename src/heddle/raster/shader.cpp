@@ -128,6 +128,11 @@ void Program::dispatch(std::uint64_t items) const {
                       1);
 }
 
+void Program::dispatch_indirect(std::size_t offset) const {
+    use();
+    glDispatchComputeIndirect(static_cast<GLintptr>(offset));
+}
+
 void finish_writes() {
     glMemoryBarrier(GL_ALL_BARRIER_BITS);
 }

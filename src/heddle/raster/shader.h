@@ -2,6 +2,7 @@
 
 #include <heddle/base/vec.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -39,6 +40,8 @@ public:
     /// Runs one invocation for each of `items`: as many groups along x as every driver takes, the
     /// rest along y. Waits for nothing.
     void dispatch(std::uint64_t items) const;
+    /// Runs as many groups as three words at `offset` of the bound indirect buffer say.
+    void dispatch_indirect(std::size_t offset) const;
 
 private:
     explicit Program(std::uint32_t id) : id_(id) {}

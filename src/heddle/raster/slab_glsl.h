@@ -4,20 +4,29 @@
 
 namespace heddle::raster {
 
-/// GLSL, vertex: the stretch between two slices, as its fragments need it. Needs kBrickGlsl.
+/// Before all other GLSL of a compute shader that draws slabs: what a vertex shader hands to its
+/// fragments are then globals.
+inline constexpr std::string_view kSlabsInComputeGlsl = "#define SLABS_IN_COMPUTE\n";
+
+/// GLSL, vertex and compute: the stretch between two slices, as its pixels need it. Needs kBrickGlsl.
 inline constexpr std::string_view kStretchGlsl = R"(
 layout(std430, binding = 2) readonly buffer List { uint list[]; };
-flat out uint slab;
-flat out vec4 place_a, place_b;     // center, scale
-flat out vec4 tangent_a, tangent_b; // tangent, turn
-flat out vec4 normal_a, normal_b;   // normal; layer, colour
-flat out vec3 sizes;                // extent and fiber's radius, model units; reach, units
+#ifdef SLABS_IN_COMPUTE
+#define TO_PIXELS
+#else
+#define TO_PIXELS flat out
+#endif
+TO_PIXELS uint slab;
+TO_PIXELS vec4 place_a, place_b;     // center, scale
+TO_PIXELS vec4 tangent_a, tangent_b; // tangent, turn
+TO_PIXELS vec4 normal_a, normal_b;   // normal; layer, colour
+TO_PIXELS vec3 sizes;                // extent and fiber's radius, model units; reach, units
 
 struct Stretch { Slice a, b; vec3 along; float reach; };
 
-// The stretch that this instance draws, handed to its fragments.
-Stretch give_stretch() {
-    slab = list[gl_InstanceID];
+// The stretch after slice `number`, handed to its pixels.
+Stretch load_slab(uint number) {
+    slab = number;
     Slice a = slices[slab];
     Slice b = slices[slab + 1u];
     vec3 chord = b.center - a.center;
@@ -33,20 +42,27 @@ Stretch give_stretch() {
     return Stretch(a, b, n > 0.0 ? chord / n : a.tangent, reach);
 }
 
+#ifndef SLABS_IN_COMPUTE
+Stretch give_stretch() { return load_slab(list[gl_InstanceID]); }
+
 vec2 corner() {
     return vec2((gl_VertexID & 1) == 0 ? -1.0 : 1.0, (gl_VertexID & 2) == 0 ? -1.0 : 1.0);
 }
+#endif
 )";
 
-/// GLSL, fragment: a ray cut to a stretch; `local_at` is where it passes the section. Needs kBrickGlsl.
+/// GLSL, fragment and compute: a ray cut to a stretch; `local_at` is where it passes the section. Needs
+/// kBrickGlsl, in compute kStretchGlsl too.
 inline constexpr std::string_view kSlabGlsl = R"(
 layout(binding = 0) uniform sampler2DArray section_distance;
 layout(binding = 1) uniform sampler2DArray section_color;
+#ifndef SLABS_IN_COMPUTE
 flat in uint slab;
 flat in vec4 place_a, place_b;
 flat in vec4 tangent_a, tangent_b;
 flat in vec4 normal_a, normal_b;
 flat in vec3 sizes;
+#endif
 
 vec3 along;       // unit, from a to b
 float chord;      // units, from a to b

@@ -5,7 +5,9 @@
 #include <heddle/voxel/test_voxelize.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <tuple>
 #include <vector>
@@ -69,6 +71,26 @@ inline Vec3d axis_of(const FoundVoxel& voxel) {
     }
     const auto of = [&](int i) { return static_cast<float>(sum[i] / weight); };
     return to_double(principal_direction({of(0), of(1), of(2), of(3), of(4), of(5)}));
+}
+
+/// All that is stored of a grid, voxel by voxel.
+struct Stored {
+    Vec3i at;
+    Coverage coverage;
+    std::vector<Lobe> lobes;
+    std::array<std::uint64_t, 3> columns{};
+    friend bool operator==(const Stored&, const Stored&) = default;
+};
+
+inline std::vector<Stored> stored(const VoxelSource& source) {
+    std::vector<Stored> out;
+    heddle::test::for_each_voxel(source, [&](const FoundVoxel& v) {
+        out.push_back({v.at, v.coverage, {v.lobes.begin(), v.lobes.end()}, v.columns});
+    });
+    std::sort(out.begin(), out.end(), [](const Stored& a, const Stored& b) {
+        return std::tie(a.at.x, a.at.y, a.at.z) < std::tie(b.at.x, b.at.y, b.at.z);
+    });
+    return out;
 }
 
 /// How a second voxelization differs from a first.

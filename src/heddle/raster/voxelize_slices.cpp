@@ -7,6 +7,7 @@
 #include <heddle/raster/brick_grid.h>
 #include <heddle/raster/brick_words.h>
 #include <heddle/raster/draw_bricks.h>
+#include <heddle/raster/slab_pass.h>
 #include <heddle/voxel/block_keeper.h>
 #include <heddle/voxel/block_worker.h>
 
@@ -163,10 +164,9 @@ std::unique_ptr<VoxelSource> voxelize_slices(const Geometry& geometry,
     const std::vector<TouchedBlock> blocks = find_blocks(driver, grid, chunks);
     const int bits =
         weight_bits(context.units, chunks, thinnest_fiber(geometry, sections, context.units));
-    BrickDrawer drawer(driver, grid, sections, chunks,
-                       {.composition = raster.composition,
-                        .weight_bits = bits,
-                        .memory_bytes = memory_of(options)});
+    SlabPrograms programs(driver, raster.path, raster.composition);
+    BrickDrawer drawer(driver, programs, grid, sections, chunks,
+                       {.weight_bits = bits, .memory_bytes = memory_of(options)});
     BlockKeeper keeper(context.info(), blocks.size(), plan.spool, options.spool_dir);
     if (visitor != nullptr) {
         context.fit.fields.masks = true;
@@ -192,6 +192,7 @@ std::unique_ptr<VoxelSource> voxelize_slices(const Geometry& geometry,
         progress.advance(static_cast<std::int64_t>(batch.bricks));
         begin = batch.end;
     }
+    done.path = programs.path();
     if (counts != nullptr) *counts = done;
     return keeper.finish();
 }

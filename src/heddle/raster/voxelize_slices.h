@@ -18,10 +18,18 @@ enum class Composition : std::uint8_t {
     Accumulate ///< columns of the fibers themselves, as the sampling voxelizer has them
 };
 
+/// What draws slices: both give the same voxels.
+enum class RasterPath : std::uint8_t {
+    Auto,     ///< the faster: known of software drivers, tried out on others
+    Fragment, ///< quads, a fragment a pixel
+    Compute   ///< compute shaders that walk over the quads' pixels
+};
+
 /// What the rasterizing voxelizer is asked for beside VoxelizeOptions.
 struct RasterOptions {
     Composition composition = Composition::Accumulate;
     double slice_spacing = 0.0; ///< scene units, at most; 0: half of the yarn's radius
+    RasterPath path = RasterPath::Auto;
 };
 
 /// What it did.
@@ -30,9 +38,10 @@ struct RasterCounts {
     std::int64_t bricks = 0;  ///< of 8 x 8 x 8 voxels, touched
     std::int64_t batches = 0; ///< of as many bricks as one buffer holds
     std::string driver;
-    double setup_seconds = 0.0; ///< sections, slices, occupied bricks
-    double draw_seconds = 0.0;  ///< three passes, until their sums are read
-    double fit_seconds = 0.0;   ///< sums to voxels, and levels
+    RasterPath path = RasterPath::Auto; ///< that was taken; Auto where nothing was drawn
+    double setup_seconds = 0.0;         ///< sections, slices, occupied bricks
+    double draw_seconds = 0.0;          ///< three passes, until their sums are read
+    double fit_seconds = 0.0;           ///< sums to voxels, and levels
 };
 
 /// Makes procedural yarns slices, which is what this voxelizer draws.

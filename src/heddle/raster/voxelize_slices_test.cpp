@@ -45,26 +45,6 @@ void expect_close(const Difference& d, const std::string& what) {
     EXPECT_LT(d.angle_deg, 5.0) << what;
 }
 
-/// All that is stored of a grid, voxel by voxel.
-struct Stored {
-    Vec3i at;
-    Coverage coverage;
-    std::vector<Lobe> lobes;
-    std::array<std::uint64_t, 3> columns{};
-    friend bool operator==(const Stored&, const Stored&) = default;
-};
-
-std::vector<Stored> stored(const VoxelSource& source) {
-    std::vector<Stored> out;
-    for_each_voxel(source, [&](const FoundVoxel& v) {
-        out.push_back({v.at, v.coverage, {v.lobes.begin(), v.lobes.end()}, v.columns});
-    });
-    std::sort(out.begin(), out.end(), [](const Stored& a, const Stored& b) {
-        return std::tie(a.at.x, a.at.y, a.at.z) < std::tie(b.at.x, b.at.y, b.at.z);
-    });
-    return out;
-}
-
 Geometry weave(GenerateKind kind, std::int64_t nx, std::int64_t ny) {
     return generate({.kind = kind, .nx = nx, .ny = ny});
 }

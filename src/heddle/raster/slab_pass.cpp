@@ -1,0 +1,82 @@
+#include <heddle/raster/slab_pass.h>
+
+#include <heddle/raster/accumulate_glsl.h>
+#include <heddle/raster/brick_glsl.h>
+#include <heddle/raster/column_glsl.h>
+#include <heddle/raster/compose_glsl.h>
+#include <heddle/raster/slab_glsl.h>
+#include <heddle/raster/slice_glsl.h>
+
+#include <cstddef>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+namespace heddle::raster {
+namespace {
+
+constexpr std::size_t kGroupsOffset = 4 * sizeof(std::uint32_t); ///< in kListGlsl's Draw
+
+std::string join(std::initializer_list<std::string_view> parts) {
+    std::string out;
+    for (const std::string_view part : parts) out += part;
+    return out;
+}
+
+Program make_program(RasterPath path, Composition composition) {
+    const std::string_view body =
+        composition == Composition::Accumulate ? kAccumulateGlsl : kComposeGlsl;
+    if (path == RasterPath::Compute) {
+        return Program::compute(
+            "walk slices",
+            join({kSlabsInComputeGlsl, kSliceGlsl, kBrickGlsl, kSlabLanesGlsl, kStretchGlsl}),
+            join({kSlabGlsl, kRectangleGlsl, kColumnGlsl, body, kSlabLoopGlsl}));
+    }
+    return Program::draw("draw slices", join({kSliceGlsl, kBrickGlsl}),
+                         join({kStretchGlsl, kRectangleGlsl, kQuadGlsl}),
+                         join({kSlabGlsl, kRectangleGlsl, kColumnGlsl, body, kFragmentGlsl}));
+}
+
+/// On llvmpipe compute takes 4 % (yarn) to 20 % (hair) less time: bench/results/raster_tables.md.
+RasterPath resolve(RasterPath asked, const Context& context) {
+    if (asked == RasterPath::Auto && context.is_software()) return RasterPath::Compute;
+    return asked;
+}
+
+} // namespace
+
+SlabPass::SlabPass(RasterPath path, Composition composition)
+    : path_(path), program_(make_program(path, composition)) {
+    program_.set("policy", static_cast<std::int32_t>(composition));
+}
+
+void SlabPass::draw(const Buffer& command, const SlabView& view) const {
+    program_.use();
+    program_.set("view_lo", view.lo);
+    program_.set("view_size", view.size);
+    command.bind_indirect();
+    command.bind_storage(4);
+    for (std::int32_t axis = 0; axis < 3; ++axis) {
+        program_.set("axis", axis);
+        if (path_ == RasterPath::Compute) {
+            program_.dispatch_indirect(kGroupsOffset);
+            continue;
+        }
+        frame_.bind(axis == 0 ? view.size.y : view.size.x, axis == 2 ? view.size.y : view.size.z);
+        EmptyFrame::draw_indirect();
+    }
+}
+
+SlabPrograms::SlabPrograms(const Context& context, RasterPath path, Composition composition)
+    : composition_(composition),
+      path_(resolve(path, context)),
+      list_(Program::compute(
+          "list slices", join({kSliceGlsl, kBrickGlsl, kSlabLanesGlsl}), kListGlsl)) {}
+
+const SlabPass& SlabPrograms::pass(RasterPath path) {
+    std::optional<SlabPass>& pass = path == RasterPath::Compute ? compute_ : fragment_;
+    if (!pass) pass.emplace(path, composition_);
+    return *pass;
+}
+
+} // namespace heddle::raster

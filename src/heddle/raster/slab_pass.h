@@ -1,0 +1,57 @@
+#pragma once
+
+#include <heddle/raster/brick_grid.h>
+#include <heddle/raster/texture.h>
+#include <heddle/raster/voxelize_slices.h>
+
+#include <cstdint>
+#include <optional>
+
+namespace heddle::raster {
+
+/// A part of the grid, in subvoxels from the origin.
+struct SlabView {
+    Vec3i lo, size;
+};
+
+/// Draws listed slabs along three axes into the sums of bricks: by fragments of quads, or by compute
+/// invocations that walk over the same pixels. Both run one text for a pixel. Needs a current Context.
+class SlabPass {
+public:
+    /// @param path  Fragment or Compute
+    /// @throws Error  Internal: as Program
+    SlabPass(RasterPath path, Composition composition);
+
+    /// To set what all draws have in common.
+    [[nodiscard]] const Program& program() const { return program_; }
+    /// Slices are bound as storage 0, slots 1, the list 2, the pool 3. Waits for nothing.
+    /// @param command  as kListGlsl writes it
+    void draw(const Buffer& command, const SlabView& view) const;
+
+private:
+    RasterPath path_;
+    Program program_;
+    EmptyFrame frame_;
+};
+
+/// The programs that list and draw slabs, each made when it is first asked for.
+class SlabPrograms {
+public:
+    /// @param path  Auto: what is faster on a software driver; on another it is left open
+    SlabPrograms(const Context& context, RasterPath path, Composition composition);
+
+    [[nodiscard]] Composition composition() const { return composition_; }
+    [[nodiscard]] const Program& list() const { return list_; }
+    [[nodiscard]] const SlabPass& pass(RasterPath path);
+    /// Fragment or Compute; Auto until one is chosen.
+    [[nodiscard]] RasterPath path() const { return path_; }
+    void choose(RasterPath path) { path_ = path; }
+
+private:
+    Composition composition_;
+    RasterPath path_;
+    Program list_;
+    std::optional<SlabPass> fragment_, compute_;
+};
+
+} // namespace heddle::raster
