@@ -72,13 +72,18 @@ void BrickGrid::set_uniforms(const Program& program) const {
     program.set("subvoxels", units.n);
 }
 
-std::vector<TouchedBlock>
-find_blocks(const Context& context, const BrickGrid& grid, std::span<const SliceChunk> chunks) {
+Program make_mark_program() {
+    const std::string shared = std::string(kSliceGlsl) + std::string(kBrickGlsl);
+    return Program::compute("mark bricks", shared, kMarkGlsl);
+}
+
+std::vector<TouchedBlock> find_blocks(const Context& context,
+                                      const Program& mark,
+                                      const BrickGrid& grid,
+                                      std::span<const SliceChunk> chunks) {
     std::vector<std::uint32_t> marks((grid.size() + 31) / 32);
     const Buffer buffer("occupied bricks", marks.size() * sizeof(std::uint32_t));
     buffer.clear();
-    const std::string shared = std::string(kSliceGlsl) + std::string(kBrickGlsl);
-    const Program mark = Program::compute("mark bricks", shared, kMarkGlsl);
     grid.set_uniforms(mark);
     buffer.bind_storage(1);
     for (const SliceChunk& chunk : chunks) {

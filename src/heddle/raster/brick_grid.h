@@ -38,8 +38,14 @@ struct TouchedBlock {
     std::vector<std::uint32_t> bricks; ///< numbers in the grid, ascending
 };
 
+/// The program that finds blocks.
+[[nodiscard]] Program make_mark_program();
+
 /// The blocks that slices may touch, in Z-order, found by the driver.
-[[nodiscard]] std::vector<TouchedBlock>
-find_blocks(const Context& context, const BrickGrid& grid, std::span<const SliceChunk> chunks);
+/// @param mark  of make_mark_program()
+[[nodiscard]] std::vector<TouchedBlock> find_blocks(const Context& context,
+                                                    const Program& mark,
+                                                    const BrickGrid& grid,
+                                                    std::span<const SliceChunk> chunks);
 
 } // namespace heddle::raster

@@ -46,30 +46,30 @@ void check_last(std::span<const SliceChunk> chunks, Composition composition) {
 } // namespace
 
 BrickDrawer::BrickDrawer(const Context& context,
-                         SlabPrograms& programs,
+                         SlabKit& kit,
                          const BrickGrid& grid,
-                         const SectionLayers& sections,
+                         const SectionTextures& textures,
                          std::span<const SliceChunk> chunks,
                          const DrawOptions& options)
     : context_(context),
-      programs_(programs),
+      kit_(kit),
       grid_(grid),
       chunks_(chunks),
       options_(options),
       capacity_(capacity_of(context, options.memory_bytes, materials_of(chunks).size())),
       materials_(materials_of(chunks)),
-      textures_(sections),
+      textures_(textures),
       slots_(grid.size()),
       slot_buffer_("slots of bricks", grid.size() * sizeof(std::uint32_t)),
-      pool_("sums of bricks", capacity_ * kBrickBytes),
+      pool_(kit.pool(capacity_ * kBrickBytes)),
       list_("a batch's slices", most_slices(chunks) * sizeof(std::uint32_t)),
       command_("a batch's draw", 7 * sizeof(std::uint32_t)) {
-    check_last(chunks, programs.composition());
-    grid.set_uniforms(programs.list());
+    check_last(chunks, kit.composition());
+    grid.set_uniforms(kit.list());
 }
 
 void BrickDrawer::use_path(RasterPath path) {
-    pass_ = &programs_.pass(path);
+    pass_ = &kit_.pass(path);
     grid_.set_uniforms(pass_->program());
     pass_->program().set("weight_scale", std::ldexp(1.0f, options_.weight_bits));
 }
@@ -116,8 +116,8 @@ void BrickDrawer::list_slices(const SliceChunk& chunk) {
     command_.write(std::as_bytes(std::span(kNone)));
     list_.bind_storage(2);
     command_.bind_storage(3);
-    programs_.list().set("slice_count", chunk.count);
-    programs_.list().dispatch(chunk.count);
+    kit_.list().set("slice_count", chunk.count);
+    kit_.list().dispatch(chunk.count);
     finish_writes();
 }
 
@@ -155,8 +155,8 @@ RasterPath BrickDrawer::try_paths(std::span<const TouchedBlock> blocks, std::siz
 }
 
 DrawnBatch BrickDrawer::draw(std::span<const TouchedBlock> blocks, std::size_t begin) {
-    if (programs_.path() == RasterPath::Auto) programs_.choose(try_paths(blocks, begin));
-    use_path(programs_.path());
+    if (kit_.path() == RasterPath::Auto) kit_.choose(try_paths(blocks, begin));
+    use_path(kit_.path());
     return draw_batch(blocks, begin);
 }
 
@@ -166,14 +166,14 @@ DrawnBatch BrickDrawer::draw_batch(std::span<const TouchedBlock> blocks, std::si
     set_slots(blocks, batch);
     for (const std::uint32_t material : materials_) {
         pool_.clear();
-        const int picks = programs_.composition() == Composition::Last ? 2 : 1;
+        const int picks = kit_.composition() == Composition::Last ? 2 : 1;
         for (std::int32_t pick = 0; pick < picks; ++pick) {
             pass_->program().set("pick", pick);
             draw_material(material, view);
             finish_writes();
         }
         DrawnMaterial drawn{.form = {.subvoxels = grid_.units.n,
-                                     .composition = programs_.composition(),
+                                     .composition = kit_.composition(),
                                      .weight_bits = options_.weight_bits,
                                      .material = material},
                             .words = std::vector<std::uint32_t>(batch.bricks * kBrickWords)};

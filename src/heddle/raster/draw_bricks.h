@@ -33,14 +33,14 @@ struct DrawOptions {
 };
 
 /// Draws slices along three axes into the sums of bricks, a batch of blocks at a time. Needs the
-/// Context, programs, grid and chunks while it lives.
+/// Context, kit, grid, textures and chunks while it lives.
 class BrickDrawer {
 public:
     /// @throws Error  OutOfMemory; Unsupported: `Last` with more than 2^23 slices
     BrickDrawer(const Context& context,
-                SlabPrograms& programs,
+                SlabKit& kit,
                 const BrickGrid& grid,
-                const SectionLayers& sections,
+                const SectionTextures& textures,
                 std::span<const SliceChunk> chunks,
                 const DrawOptions& options);
 
@@ -59,17 +59,17 @@ private:
     void list_slices(const SliceChunk& chunk);
 
     const Context& context_;
-    SlabPrograms& programs_;
+    SlabKit& kit_;
     const BrickGrid& grid_;
     std::span<const SliceChunk> chunks_;
     DrawOptions options_;
     std::size_t capacity_; ///< bricks of a batch
     std::vector<std::uint32_t> materials_;
-    SectionTextures textures_;
+    const SectionTextures& textures_;
     const SlabPass* pass_ = nullptr;
     std::vector<std::uint32_t> slots_; ///< by brick: slot + 1, or 0
     Buffer slot_buffer_;
-    Buffer pool_;
+    const Buffer& pool_;
     Buffer list_;
     Buffer command_;
 };

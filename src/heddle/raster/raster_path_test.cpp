@@ -102,14 +102,16 @@ TEST(RasterPath, WhereNoneIsChosenBothAreTriedAndTheDrawnSumsAreTheirs) {
     const SectionLayers sections = build_sections(yarn, 0);
     const Context context;
     const std::vector<SliceChunk> chunks = place_slices(context, yarn, sections, units, {});
-    const std::vector<TouchedBlock> blocks = find_blocks(context, grid, chunks);
-    SlabPrograms programs(context, RasterPath::Fragment, Composition::Accumulate);
-    BrickDrawer drawer(context, programs, grid, sections, chunks,
+    const std::vector<TouchedBlock> blocks =
+        find_blocks(context, make_mark_program(), grid, chunks);
+    SlabKit kit(context, RasterPath::Fragment, Composition::Accumulate);
+    const SectionTextures textures(sections);
+    BrickDrawer drawer(context, kit, grid, textures, chunks,
                        {.weight_bits = 8, .memory_bytes = 1 << 26});
     const DrawnBatch fragment = drawer.draw(blocks, 0);
-    programs.choose(RasterPath::Auto);
+    kit.choose(RasterPath::Auto);
     const DrawnBatch tried = drawer.draw(blocks, 0);
-    EXPECT_NE(programs.path(), RasterPath::Auto);
+    EXPECT_NE(kit.path(), RasterPath::Auto);
     ASSERT_EQ(tried.materials.size(), 1u);
     EXPECT_TRUE(tried.materials == fragment.materials);
 }

@@ -2,11 +2,15 @@
 
 #include <heddle/base/error.h>
 #include <heddle/base/parallel.h>
+#include <heddle/base/random.h>
 #include <heddle/geom/fiber_table.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
+#include <type_traits>
+#include <utility>
 
 namespace heddle::raster {
 namespace {
@@ -104,12 +108,16 @@ SectionLayer draw(const Discs& discs, std::int32_t size) {
     return layer;
 }
 
-} // namespace
+/// What all layers are drawn from.
+struct Sections {
+    std::vector<Discs> discs;
+    std::vector<std::uint32_t> first; ///< as SectionLayers has it
+    std::int32_t size = 0;
+};
 
-SectionLayers build_sections(const Geometry& geometry, std::uint64_t seed) {
-    SectionLayers out;
+Sections sections_of(const Geometry& geometry, std::uint64_t seed) {
+    Sections out;
     out.first.push_back(0);
-    std::vector<Discs> all;
     float size = kLeastSize;
     for (std::size_t s = 0; s < geometry.curves.size(); ++s) {
         const CurveSet& set = geometry.curves[s];
@@ -124,13 +132,57 @@ SectionLayers build_sections(const Geometry& geometry, std::uint64_t seed) {
             std::clamp<std::size_t>(set.curve_count(), 1, kMostVariants));
         const std::uint32_t variants = drawn ? curves : 1;
         for (std::uint32_t v = 0; v < variants; ++v) {
-            all.push_back(discs_of(yarn, seed + s, v));
-            size = std::max(size, 2.0f * all.back().extent / all.back().radius * kTexelsOfRadius);
+            out.discs.push_back(discs_of(yarn, seed + s, v));
+            const Discs& last = out.discs.back();
+            size = std::max(size, 2.0f * last.extent / last.radius * kTexelsOfRadius);
         }
-        out.first.push_back(static_cast<std::uint32_t>(all.size()));
+        out.first.push_back(static_cast<std::uint32_t>(out.discs.size()));
     }
     out.size = static_cast<std::int32_t>(std::ceil(std::min(size, kMostSize) / 16.0f)) * 16;
-    for (const Discs& discs : all) out.layers.push_back(draw(discs, out.size));
+    return out;
+}
+
+template <typename T>
+void add_to_key(std::uint64_t& key, const std::vector<T>& values) {
+    static_assert(std::is_trivially_copyable_v<T> && sizeof(T) <= sizeof(std::uint64_t));
+    key = hash64(key, values.size());
+    for (const T& value : values) {
+        std::uint64_t word = 0;
+        std::memcpy(&word, &value, sizeof(T));
+        key = hash64(key, word);
+    }
+}
+
+std::uint64_t key_of(const Sections& sections) {
+    std::uint64_t key = hash64(1, static_cast<std::uint64_t>(sections.size));
+    add_to_key(key, sections.first);
+    for (const Discs& d : sections.discs) {
+        for (const std::vector<float>* values : {&d.x, &d.y, &d.across_x, &d.across_y, &d.cosine}) {
+            add_to_key(key, *values);
+        }
+        add_to_key(key, d.color);
+        add_to_key(key, std::vector<float>{d.radius, d.extent, d.half});
+        if (d.image == nullptr) continue;
+        add_to_key(key, std::vector<std::int64_t>{d.image->width, d.image->height});
+        add_to_key(key, d.image->texels);
+    }
+    return key;
+}
+
+} // namespace
+
+bool update_sections(SectionLayers& layers, const Geometry& geometry, std::uint64_t seed) {
+    Sections sections = sections_of(geometry, seed);
+    const std::uint64_t key = key_of(sections);
+    if (key == layers.key) return false;
+    layers = {.size = sections.size, .layers = {}, .first = std::move(sections.first), .key = key};
+    for (const Discs& discs : sections.discs) layers.layers.push_back(draw(discs, layers.size));
+    return true;
+}
+
+SectionLayers build_sections(const Geometry& geometry, std::uint64_t seed) {
+    SectionLayers out;
+    (void)update_sections(out, geometry, seed);
     return out;
 }
 

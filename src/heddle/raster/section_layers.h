@@ -22,6 +22,7 @@ struct SectionLayers {
     std::int32_t size = 0; ///< texels along a side, the same for all
     std::vector<SectionLayer> layers;
     std::vector<std::uint32_t> first; ///< by set of curves, and the end: its layers
+    std::uint64_t key = 0;            ///< a hash of what they are drawn from
 
     /// Layer of curve `curve` of set `set`.
     [[nodiscard]] std::uint32_t of(std::size_t set, std::size_t curve) const {
@@ -37,5 +38,10 @@ constexpr std::uint32_t kMostVariants = 8;
 /// (place_fibers of the same seed and number).
 /// @throws Error  Unsupported: a procedural yarn, which no one section stands for
 [[nodiscard]] SectionLayers build_sections(const Geometry& geometry, std::uint64_t seed);
+
+/// Makes `layers` those of this geometry; draws nothing where they are that already.
+/// @return  true where they were drawn anew
+/// @throws Error  as build_sections; `layers` is then as it was
+bool update_sections(SectionLayers& layers, const Geometry& geometry, std::uint64_t seed);
 
 } // namespace heddle::raster

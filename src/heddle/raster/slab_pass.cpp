@@ -67,16 +67,24 @@ void SlabPass::draw(const Buffer& command, const SlabView& view) const {
     }
 }
 
-SlabPrograms::SlabPrograms(const Context& context, RasterPath path, Composition composition)
+SlabKit::SlabKit(const Context& context, RasterPath path, Composition composition)
     : composition_(composition),
       path_(resolve(path, context)),
       list_(Program::compute(
           "list slices", join({kSliceGlsl, kBrickGlsl, kSlabLanesGlsl}), kListGlsl)) {}
 
-const SlabPass& SlabPrograms::pass(RasterPath path) {
+const SlabPass& SlabKit::pass(RasterPath path) {
     std::optional<SlabPass>& pass = path == RasterPath::Compute ? compute_ : fragment_;
     if (!pass) pass.emplace(path, composition_);
     return *pass;
+}
+
+const Buffer& SlabKit::pool(std::size_t bytes) {
+    if (!pool_ || pool_->byte_count() != bytes) {
+        pool_.reset(); // there may not be room for both
+        pool_.emplace("sums of bricks", bytes);
+    }
+    return *pool_;
 }
 
 } // namespace heddle::raster

@@ -4,6 +4,7 @@
 #include <heddle/raster/texture.h>
 #include <heddle/raster/voxelize_slices.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -34,11 +35,12 @@ private:
     EmptyFrame frame_;
 };
 
-/// The programs that list and draw slabs, each made when it is first asked for.
-class SlabPrograms {
+/// What slabs are drawn with, kept from one geometry to the next: programs, each made when it is first
+/// asked for, and the memory of their sums.
+class SlabKit {
 public:
     /// @param path  Auto: what is faster on a software driver; on another it is left open
-    SlabPrograms(const Context& context, RasterPath path, Composition composition);
+    SlabKit(const Context& context, RasterPath path, Composition composition);
 
     [[nodiscard]] Composition composition() const { return composition_; }
     [[nodiscard]] const Program& list() const { return list_; }
@@ -46,12 +48,16 @@ public:
     /// Fragment or Compute; Auto until one is chosen.
     [[nodiscard]] RasterPath path() const { return path_; }
     void choose(RasterPath path) { path_ = path; }
+    /// Memory for sums; what it held is lost where the last call asked for another size.
+    /// @throws Error  OutOfMemory
+    [[nodiscard]] const Buffer& pool(std::size_t bytes);
 
 private:
     Composition composition_;
     RasterPath path_;
     Program list_;
     std::optional<SlabPass> fragment_, compute_;
+    std::optional<Buffer> pool_;
 };
 
 } // namespace heddle::raster

@@ -1,11 +1,11 @@
 #include <heddle/raster/slices.h>
 
 #include <heddle/base/error.h>
-#include <heddle/raster/shader.h>
 #include <heddle/raster/slice_glsl.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace heddle::raster {
 namespace {
@@ -156,7 +156,15 @@ Buffer upload(const char* name, const std::vector<T>& rows) {
     return {name, std::span<const T>(rows)};
 }
 
+std::string shared_text() {
+    return std::string(kSliceGlsl) + std::string(kCurveGlsl);
+}
+
 } // namespace
+
+PlacePrograms::PlacePrograms()
+    : measure(Program::compute("measure yarns", shared_text(), kCourseGlsl)),
+      place(Program::compute("place slices", shared_text(), kPlaceGlsl)) {}
 
 std::vector<SliceChunk> place_slices(const Context& context,
                                      const Geometry& geometry,
@@ -176,8 +184,9 @@ std::vector<SliceChunk> place_slices(const Context& context,
     const Buffer* bound[] = {&points, &colors, &curves, &course, &lengths, &frames};
     for (std::uint32_t b = 0; b < 6; ++b) bound[b]->bind_storage(b);
 
-    const std::string shared = std::string(kSliceGlsl) + std::string(kCurveGlsl);
-    const Program measure = Program::compute("measure yarns", shared, kCourseGlsl);
+    std::optional<PlacePrograms> own;
+    if (options.programs == nullptr) own.emplace();
+    const auto& [measure, place] = own ? *own : *options.programs;
     const auto count = static_cast<std::uint32_t>(tables.curves.size());
     measure.set("curve_count", count);
     measure.dispatch(count);
@@ -193,7 +202,6 @@ std::vector<SliceChunk> place_slices(const Context& context,
     }
     const Buffer firsts = upload("numbers of slices", first);
     firsts.bind_storage(6);
-    const Program place = Program::compute("place slices", shared, kPlaceGlsl);
     std::vector<SliceChunk> out;
     std::int64_t bytes = context.limits().storage_bytes;
     if (options.chunk_bytes > 0) bytes = std::min(bytes, options.chunk_bytes);

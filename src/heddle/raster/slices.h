@@ -4,6 +4,7 @@
 #include <heddle/raster/buffer.h>
 #include <heddle/raster/context.h>
 #include <heddle/raster/section_layers.h>
+#include <heddle/raster/shader.h>
 #include <heddle/voxel/lattice_units.h>
 
 #include <cstdint>
@@ -34,6 +35,12 @@ struct SliceChunk {
     std::uint32_t material = 0;
 };
 
+/// The programs that place slices: compiled once where slices are placed again and again.
+struct PlacePrograms {
+    Program measure, place;
+    PlacePrograms();
+};
+
 /// How slices are placed.
 struct PlaceOptions {
     Vec3i origin{};           ///< voxel whose corner all places are relative to
@@ -42,6 +49,7 @@ struct PlaceOptions {
     std::int64_t chunk_bytes =
         0;               ///< of a chunk; 0, or more than that: what one buffer of the driver holds
     bool lattice = true; ///< refuses a twist that no lattice of these units shows
+    const PlacePrograms* programs = nullptr; ///< null: they are compiled for this call
 };
 
 /// Resamples all curves on the driver: slices at most `spacing` apart, at most .2 radians of bend and

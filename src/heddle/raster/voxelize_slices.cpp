@@ -15,6 +15,7 @@
 #include <chrono>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace heddle::raster {
 namespace {
@@ -121,6 +122,29 @@ struct BlockFitter {
     }
 };
 
+RasterCounts count(std::span<const SliceChunk> chunks, std::span<const TouchedBlock> blocks) {
+    RasterCounts out;
+    for (const SliceChunk& c : chunks) out.slices += c.count;
+    for (const TouchedBlock& b : blocks) out.bricks += static_cast<std::int64_t>(b.bricks.size());
+    return out;
+}
+
+/// Draws and fits all blocks, a batch after the other.
+void draw_all(BrickDrawer& drawer, BlockFitter& fitter, Progress& progress, RasterCounts& done) {
+    progress.begin("draw", "bricks", done.bricks);
+    for (std::size_t begin = 0; begin < fitter.blocks.size(); ++done.batches) {
+        progress.check();
+        const auto drawn_at = Clock::now();
+        const DrawnBatch batch = drawer.draw(fitter.blocks, begin);
+        done.draw_seconds += seconds_since(drawn_at);
+        const auto fitted_at = Clock::now();
+        fitter.fit(batch);
+        done.fit_seconds += seconds_since(fitted_at);
+        progress.advance(static_cast<std::int64_t>(batch.bricks));
+        begin = batch.end;
+    }
+}
+
 std::vector<Vec3i> indices_of(std::span<const TouchedBlock> blocks) {
     std::vector<Vec3i> out;
     for (const TouchedBlock& b : blocks) out.push_back(b.index);
@@ -144,28 +168,48 @@ std::vector<std::string> make_slices_of_yarns(Geometry& geometry, std::uint64_t 
     return notes;
 }
 
-std::unique_ptr<VoxelSource> voxelize_slices(const Geometry& geometry,
-                                             const VoxelizeOptions& options,
-                                             const RasterOptions& raster,
-                                             const VoxelizePlan& plan,
-                                             Progress& progress,
-                                             BlockVisitor* visitor,
-                                             RasterCounts* counts) {
+struct SliceVoxelizer::Kept {
+    Context driver;
+    PlacePrograms place;
+    Program mark = make_mark_program();
+    SlabKit kit;
+    SectionLayers sections;
+    std::optional<SectionTextures> textures;
+
+    explicit Kept(const RasterOptions& raster) : kit(driver, raster.path, raster.composition) {}
+
+    void update(const Geometry& geometry, std::uint64_t seed) {
+        if (update_sections(sections, geometry, seed)) textures.emplace(sections);
+    }
+};
+
+SliceVoxelizer::SliceVoxelizer(const RasterOptions& raster) : raster_(raster) {}
+SliceVoxelizer::~SliceVoxelizer() = default;
+
+std::unique_ptr<VoxelSource> SliceVoxelizer::voxelize(const Geometry& geometry,
+                                                      const VoxelizeOptions& options,
+                                                      const VoxelizePlan& plan,
+                                                      Progress& progress,
+                                                      BlockVisitor* visitor,
+                                                      RasterCounts* counts) {
     check_geometry(geometry);
     const auto start = Clock::now();
     VoxelizeContext context(geometry, options, plan.lattice, plan.voxel_lo, plan.voxel_hi);
     const BrickGrid grid(context.units, origin_of(geometry, context.units), plan.voxel_lo,
                          plan.voxel_hi);
-    const SectionLayers sections = build_sections(geometry, options.seed);
-    const Context driver;
+    if (!kept_) kept_ = std::make_unique<Kept>(raster_);
+    const Context& driver = kept_->driver;
+    kept_->update(geometry, options.seed);
+    const SectionLayers& sections = kept_->sections;
     const std::vector<SliceChunk> chunks =
         place_slices(driver, geometry, sections, context.units,
-                     {.origin = grid.origin, .spacing = raster.slice_spacing / context.units.unit});
-    const std::vector<TouchedBlock> blocks = find_blocks(driver, grid, chunks);
+                     {.origin = grid.origin,
+                      .spacing = raster_.slice_spacing / context.units.unit,
+                      .programs = &kept_->place});
+    const std::vector<TouchedBlock> blocks = find_blocks(driver, kept_->mark, grid, chunks);
     const int bits =
         weight_bits(context.units, chunks, thinnest_fiber(geometry, sections, context.units));
-    SlabPrograms programs(driver, raster.path, raster.composition);
-    BrickDrawer drawer(driver, programs, grid, sections, chunks,
+    BrickDrawer drawer(driver, kept_->kit, grid, *kept_->textures, chunks,
                        {.weight_bits = bits, .memory_bytes = memory_of(options)});
     BlockKeeper keeper(context.info(), blocks.size(), plan.spool, options.spool_dir);
     if (visitor != nullptr) {
@@ -173,28 +217,23 @@ std::unique_ptr<VoxelSource> voxelize_slices(const Geometry& geometry,
         visitor->begin(context.info(), indices_of(blocks), plan.spool ? options.spool_dir : "");
     }
     BlockFitter fitter{context, grid, blocks, visitor, keeper, options.keep_sums};
-    RasterCounts done;
+    RasterCounts done = count(chunks, blocks);
     done.driver = driver.driver();
-    for (const SliceChunk& c : chunks) done.slices += c.count;
-    for (const TouchedBlock& b : blocks) {
-        done.bricks += static_cast<std::int64_t>(b.bricks.size());
-    }
     done.setup_seconds = seconds_since(start);
-    progress.begin("draw", "bricks", done.bricks);
-    for (std::size_t begin = 0; begin < blocks.size(); ++done.batches) {
-        progress.check();
-        const auto drawn_at = Clock::now();
-        const DrawnBatch batch = drawer.draw(blocks, begin);
-        done.draw_seconds += seconds_since(drawn_at);
-        const auto fitted_at = Clock::now();
-        fitter.fit(batch);
-        done.fit_seconds += seconds_since(fitted_at);
-        progress.advance(static_cast<std::int64_t>(batch.bricks));
-        begin = batch.end;
-    }
-    done.path = programs.path();
+    draw_all(drawer, fitter, progress, done);
+    done.path = kept_->kit.path();
     if (counts != nullptr) *counts = done;
     return keeper.finish();
+}
+
+std::unique_ptr<VoxelSource> voxelize_slices(const Geometry& geometry,
+                                             const VoxelizeOptions& options,
+                                             const RasterOptions& raster,
+                                             const VoxelizePlan& plan,
+                                             Progress& progress,
+                                             BlockVisitor* visitor,
+                                             RasterCounts* counts) {
+    return SliceVoxelizer(raster).voxelize(geometry, options, plan, progress, visitor, counts);
 }
 
 } // namespace heddle::raster

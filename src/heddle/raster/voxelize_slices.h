@@ -49,12 +49,37 @@ struct RasterCounts {
 /// @return  notes on what the slices do not have
 [[nodiscard]] std::vector<std::string> make_slices_of_yarns(Geometry& geometry, std::uint64_t seed);
 
-/// Voxelizes yarns and hair by OpenGL: slices seen along three axes, one column of subvoxels a pixel,
-/// into integer sums that the order of drawing does not show in.        [LopezMoreno17, 3; docs/raster.md]
-/// @param plan     of plan_voxelize; grid, region and spool are taken from it
-/// @param visitor  as for voxelize
-/// @throws Error   Device, OutOfMemory: see Context; Unsupported: meshes, a procedural yarn, more bricks
-///                 than a buffer's table holds; as plan_voxelize; Cancelled
+/// Voxelizes yarns and hair by OpenGL, one geometry after another: the driver's context, its programs,
+/// the memory of sums and, where the kinds of yarns stay the same, their sections are kept. To be used
+/// on one thread, and no other Context with it.
+class SliceVoxelizer {
+public:
+    /// Opens nothing yet.
+    explicit SliceVoxelizer(const RasterOptions& raster);
+    ~SliceVoxelizer();
+    SliceVoxelizer(const SliceVoxelizer&) = delete;
+    SliceVoxelizer& operator=(const SliceVoxelizer&) = delete;
+
+    /// Slices seen along three axes, one column of subvoxels a pixel, into integer sums that neither the
+    /// order of drawing nor what was drawn before shows in.         [LopezMoreno17, 3; docs/raster.md]
+    /// @param plan     of plan_voxelize; grid, region and spool are taken from it
+    /// @param visitor  as for voxelize
+    /// @throws Error   Device, OutOfMemory: see Context; Unsupported: meshes, a procedural yarn, more
+    ///                 bricks than a buffer's table holds; as plan_voxelize; Cancelled
+    [[nodiscard]] std::unique_ptr<VoxelSource> voxelize(const Geometry& geometry,
+                                                        const VoxelizeOptions& options,
+                                                        const VoxelizePlan& plan,
+                                                        Progress& progress,
+                                                        BlockVisitor* visitor = nullptr,
+                                                        RasterCounts* counts = nullptr);
+
+private:
+    struct Kept;
+    RasterOptions raster_;
+    std::unique_ptr<Kept> kept_;
+};
+
+/// A SliceVoxelizer's voxelize, for one geometry.
 [[nodiscard]] std::unique_ptr<VoxelSource> voxelize_slices(const Geometry& geometry,
                                                            const VoxelizeOptions& options,
                                                            const RasterOptions& raster,

@@ -119,6 +119,25 @@ TEST(VoxelizeSlices, TheSameBitsOnEveryRunInEveryOrderAndBatch) {
     EXPECT_GT(counts.batches, 1);
 }
 
+TEST(VoxelizeSlices, FramesInOneVoxelizerHaveTheBitsOfEachAlone) {
+    const VoxelizeOptions options = options_of(0.03);
+    Geometry two = straight_yarn({0.8f, 0.5f, 0.33f}, slice_yarn(0.06f));
+    two.curves.push_back(straight_yarn({0.1f, 0.5f, -0.8f}, slice_yarn(0.06f)).curves[0]);
+    two.curves[1].yarn = 0;
+    const Geometry frames[] = {straight_yarn({0.8f, 0.5f, 0.33f}, slice_yarn(0.06f)),
+                               straight_yarn({0.3f, -0.5f, 0.7f}, slice_yarn(0.06f)),
+                               straight_yarn({0.3f, -0.5f, 0.7f}, slice_yarn(0.05f, 60)), two};
+    std::vector<std::vector<Stored>> alone; // each in a context of its own
+    for (const Geometry& frame : frames) alone.push_back(stored(*draw(frame, options)));
+    SliceVoxelizer voxelizer({});
+    Progress silent;
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+        const VoxelizePlan plan = plan_voxelize(frames[i], options);
+        ASSERT_GT(alone[i].size(), 100u);
+        EXPECT_TRUE(stored(*voxelizer.voxelize(frames[i], options, plan, silent)) == alone[i]) << i;
+    }
+}
+
 TEST(VoxelizeSlices, ARegionHasTheSameBitsAsTheWhole) {
     const Geometry yarn = straight_yarn({0.7f, 0.5f, -0.5f}, slice_yarn(0.06f));
     VoxelizeOptions options = options_of(0.03);
