@@ -22,10 +22,12 @@ std::vector<std::uint32_t> materials_of(std::span<const SliceChunk> chunks) {
     return out;
 }
 
-std::size_t capacity_of(const Context& context, std::int64_t bytes, std::size_t materials) {
-    const std::int64_t most = std::min<std::int64_t>(context.limits().storage_bytes, bytes) /
-                              static_cast<std::int64_t>(std::max<std::size_t>(materials, 1));
-    return std::max(static_cast<std::size_t>(most) / kBrickBytes, kBlockBricks);
+std::size_t capacity_of(const Context& context, const DrawOptions& options, std::size_t materials) {
+    const std::int64_t most =
+        std::min<std::int64_t>(context.limits().storage_bytes, options.memory_bytes) /
+        static_cast<std::int64_t>(std::max<std::size_t>(materials, 1));
+    const std::size_t fit = std::max(static_cast<std::size_t>(most) / kBrickBytes, kBlockBricks);
+    return std::min(fit, static_cast<std::size_t>(options.bricks));
 }
 
 std::uint32_t most_slices(std::span<const SliceChunk> chunks) {
@@ -56,7 +58,7 @@ BrickDrawer::BrickDrawer(const Context& context,
       grid_(grid),
       chunks_(chunks),
       options_(options),
-      capacity_(capacity_of(context, options.memory_bytes, materials_of(chunks).size())),
+      capacity_(capacity_of(context, options, materials_of(chunks).size())),
       materials_(materials_of(chunks)),
       textures_(textures),
       slots_(grid.size()),

@@ -30,6 +30,7 @@ struct DrawnBatch {
 struct DrawOptions {
     int weight_bits = 0;
     std::int64_t memory_bytes = 0; ///< of a batch's sums, at most; a block's at least
+    std::int64_t bricks = 0;       ///< in all: a batch never needs more
 };
 
 /// Draws slices along three axes into the sums of bricks, a batch of blocks at a time. Needs the

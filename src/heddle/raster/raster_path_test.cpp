@@ -107,7 +107,7 @@ TEST(RasterPath, WhereNoneIsChosenBothAreTriedAndTheDrawnSumsAreTheirs) {
     SlabKit kit(context, RasterPath::Fragment, Composition::Accumulate);
     const SectionTextures textures(sections);
     BrickDrawer drawer(context, kit, grid, textures, chunks,
-                       {.weight_bits = 8, .memory_bytes = 1 << 26});
+                       {.weight_bits = 8, .memory_bytes = 1 << 26, .bricks = 1 << 20});
     const DrawnBatch fragment = drawer.draw(blocks, 0);
     kit.choose(RasterPath::Auto);
     const DrawnBatch tried = drawer.draw(blocks, 0);

@@ -209,15 +209,16 @@ std::unique_ptr<VoxelSource> SliceVoxelizer::voxelize(const Geometry& geometry,
     const std::vector<TouchedBlock> blocks = find_blocks(driver, kept_->mark, grid, chunks);
     const int bits =
         weight_bits(context.units, chunks, thinnest_fiber(geometry, sections, context.units));
-    BrickDrawer drawer(driver, kept_->kit, grid, *kept_->textures, chunks,
-                       {.weight_bits = bits, .memory_bytes = memory_of(options)});
+    RasterCounts done = count(chunks, blocks);
+    BrickDrawer drawer(
+        driver, kept_->kit, grid, *kept_->textures, chunks,
+        {.weight_bits = bits, .memory_bytes = memory_of(options), .bricks = done.bricks});
     BlockKeeper keeper(context.info(), blocks.size(), plan.spool, options.spool_dir);
     if (visitor != nullptr) {
         context.fit.fields.masks = true;
         visitor->begin(context.info(), indices_of(blocks), plan.spool ? options.spool_dir : "");
     }
     BlockFitter fitter{context, grid, blocks, visitor, keeper, options.keep_sums};
-    RasterCounts done = count(chunks, blocks);
     done.driver = driver.driver();
     done.setup_seconds = seconds_since(start);
     draw_all(drawer, fitter, progress, done);
