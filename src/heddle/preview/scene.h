@@ -7,6 +7,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace heddle::preview {
@@ -76,6 +77,16 @@ public:
         return voxels_[leaf.block][leaf.first + leaf.before[static_cast<std::size_t>(x)] +
                                    static_cast<std::uint32_t>(std::popcount(below))];
     }
+
+    /// The tables as they lie, for what copies them: cells of 16^3 leaves in a box of `cells()` from
+    /// cell `cell_lo()` on, z fastest: numbers, -1 where empty.
+    [[nodiscard]] std::span<const std::int32_t> cell_table() const { return cell_table_; }
+    [[nodiscard]] Vec3i cell_lo() const { return cell_lo_; }
+    [[nodiscard]] Vec3i cells() const { return cells_; }
+    /// 4096 a cell, x slowest: leaf + 1, 0 where there is none.
+    [[nodiscard]] std::span<const std::uint32_t> leaf_table() const { return leaf_table_; }
+    [[nodiscard]] std::span<const Leaf> leaves() const { return leaves_; }
+    [[nodiscard]] std::span<const std::vector<Voxel>> voxels_by_block() const { return voxels_; }
 
 private:
     void place_leaves(const std::vector<std::vector<VoxelLeaf>>& blocks);
