@@ -56,24 +56,24 @@ export DISPLAY=:$(cat display.txt)
 view=$!
 until_true 60 xdotool search --name 'knit - heddle' >/dev/null 2>&1 || wrong "no window: $(cat words.txt)"
 xdotool mousemove 450 250
-save s knit.png
+save s knit_view.png
 record open
 xdotool mousedown 1 mousemove 400 230 mousemove 350 200 mouseup 1
-save s knit.png
+save s knit_view.png
 record orbit
 xdotool key bracketright key bracketright key period
-save s knit.png
+save s knit_view.png
 record radius-and-twist
 xdotool click 4 click 4
-save s knit.png
+save s knit_view.png
 record zoom
 xdotool key v
-save w knit.vdb
+save w knit_view.vdb
 record voxels
-save s knit.png
+save s knit_view.png
 xdotool key 1
-save s knit.png
-save e knit.toml
+save s knit_view.png
+save e knit_view.toml
 record slices-again
 xdotool key q
 wait $view
@@ -83,8 +83,8 @@ grep -q 'inputs shown' report.txt || wrong "no report: $(cat report.txt)"
 ! grep -qv '^note: ' words.txt || wrong "words on stderr: $(cat words.txt)"
 cat report.txt
 
-"$heddle" render knit.toml --samples 1 --size 32x32 --quiet -o scene.png || wrong "the saved scene does not render"
-[ "$("$heddle" info knit.vdb | grep -c voxels)" -gt 0 ] || wrong "the saved .vdb cannot be read"
+"$heddle" render knit_view.toml --samples 1 --size 32x32 --quiet -o scene.png || wrong "the saved scene does not render"
+[ "$("$heddle" info knit_view.vdb | grep -c voxels)" -gt 0 ] || wrong "the saved .vdb cannot be read"
 
 # Ctrl-C closes it
 "$heddle" view knit.bcc --size 200x200 >/dev/null 2>words.txt &

@@ -4,12 +4,15 @@
 #include <heddle/cli/progress_bar.h>
 #include <heddle/cli/report.h>
 #include <heddle/io/image/image.h>
+#include <heddle/io/output_file.h>
+#include <heddle/io/vdb/read_vdb.h>
 #include <heddle/raster/context.h>
 #include <heddle/raster/voxelize_slices.h>
 #include <heddle/viewer/orbit.h>
 #include <heddle/viewer/slice_view.h>
 #include <heddle/window/window.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iomanip>
@@ -25,16 +28,49 @@ Vec3d direction(const Arguments& arguments, const char* name) {
     return {v[0], v[1], v[2]};
 }
 
-viewer::SliceLook look_of(const Arguments& arguments) {
+/// Colours of slices, then of voxels, each in the order of its enumeration.
+const std::vector<std::string>& slice_colors() {
+    static const std::vector<std::string> names{"shaded", "direction", "grid"};
+    return names;
+}
+const std::vector<std::string>& voxel_colors() {
+    static const std::vector<std::string> names{"shaded",   "density", "tangent", "width",
+                                                "material", "block",   "level"};
+    return names;
+}
+
+/// Place of `name` in `names`; none: what shows it is not what is shown.
+template <typename Color>
+Color color_of(const std::vector<std::string>& names, const std::string& name, const char* what) {
+    const auto at = std::find(names.begin(), names.end(), name);
+    if (at != names.end()) return static_cast<Color>(at - names.begin());
+    throw UsageError(str("--color ", name, " is not one of ", what, "; see heddle view --help"));
+}
+
+viewer::SliceLook slice_look(const Arguments& arguments) {
     const std::string blend = arguments.text("blend");
-    return {.light = direction(arguments, "light"),
-            .sorted = blend != "placed",
-            .weighted = blend == "weighted",
-            .shadows = !arguments.given("no-shadows"),
-            .occlusion = !arguments.given("no-occlusion"),
-            .opacity = arguments.number("opacity"),
-            .color = arguments.text("color") == "direction" ? viewer::SliceColor::Direction
-                                                            : viewer::SliceColor::Shaded};
+    viewer::SliceLook look;
+    look.light = direction(arguments, "light");
+    look.sorted = blend != "placed";
+    look.weighted = blend == "weighted";
+    look.shadows = !arguments.given("no-shadows");
+    look.occlusion = !arguments.given("no-occlusion");
+    look.opacity = arguments.number("opacity");
+    return look;
+}
+
+viewer::VoxelLook voxel_look(const Arguments& arguments) {
+    viewer::VoxelLook look;
+    look.shadows = !arguments.given("no-shadows");
+    if (arguments.given("level")) look.level = static_cast<int>(arguments.integer("level"));
+    look.density_scale = arguments.number("opacity");
+    look.blocks = arguments.given("blocks");
+    if (arguments.given("white-block")) {
+        const std::vector<double> b = arguments.numbers("white-block");
+        look.white_block = Vec3i{static_cast<std::int32_t>(b[0]), static_cast<std::int32_t>(b[1]),
+                                 static_cast<std::int32_t>(b[2])};
+    }
+    return look;
 }
 
 Vec3d axis_of(const std::string& name) {
@@ -75,6 +111,20 @@ void make_folder(const std::string& folder) {
     }
 }
 
+/// The scene stands in the pictures' folder, and names the volume from there.
+void write_scene(const window::Session& session, const Arguments& arguments) {
+    const std::string volume =
+        arguments.given("volume") ? arguments.text("volume") : arguments.text("FILE");
+    const std::filesystem::path folder(session.subject().folder);
+    const std::string named = std::filesystem::proximate(volume, folder).string();
+    write_output([&] {
+        OutputFile file((folder / (session.subject().name + "_view.toml")).string());
+        const std::string text = session.scene(named);
+        file.write(text.data(), text.size());
+        file.commit();
+    });
+}
+
 void draw_frames(const window::Subject& subject,
                  const window::Settings& settings,
                  const Arguments& arguments,
@@ -93,6 +143,7 @@ void draw_frames(const window::Subject& subject,
         bar.check();
         viewer::SliceTimes times;
         const viewer::ViewImage image = session.draw_now(&times);
+        if (f == 0 && arguments.given("scene")) write_scene(session, arguments);
         write_output([&] {
             write_png(frame_path(subject.folder, f), image.width, image.height, 3, image.rgb);
         });
@@ -131,19 +182,36 @@ void open_window(const window::Subject& subject,
     report.number("slowest answer", counts.worst_ms, "ms");
 }
 
-window::Subject subject_of(const Arguments& arguments, Report& report) {
-    window::Subject out;
-    out.name = std::filesystem::path(arguments.text("FILE")).stem().string();
-    out.folder = arguments.given("output") ? arguments.text("output") : ".";
-    out.seed = static_cast<std::uint64_t>(arguments.integer("seed"));
-    if (arguments.given("memory")) out.memory_bytes = arguments.bytes("memory");
+void load_curves(window::Subject& subject, const Arguments& arguments, Report& report) {
     Geometry geometry = load_geometry(arguments.text("FILE"), arguments);
     apply_model(geometry, arguments);
-    for (std::string& note : raster::make_slices_of_yarns(geometry, out.seed)) {
+    for (std::string& note : raster::make_slices_of_yarns(geometry, subject.seed)) {
         geometry.notes.push_back(std::move(note));
     }
     for (const std::string& note : geometry.notes) report.note(note);
-    out.geometry = std::move(geometry);
+    subject.geometry = std::move(geometry);
+}
+
+window::Subject subject_of(const Arguments& arguments, Report& report) {
+    const std::filesystem::path file(arguments.text("FILE"));
+    window::Subject out;
+    out.name = file.stem().string();
+    out.folder = arguments.given("output") ? arguments.text("output") : ".";
+    out.seed = static_cast<std::uint64_t>(arguments.integer("seed"));
+    if (arguments.given("memory")) out.memory_bytes = arguments.bytes("memory");
+    std::string volume = arguments.given("volume") ? arguments.text("volume") : "";
+    if (file.extension() != ".vdb")
+        load_curves(out, arguments, report);
+    else if (volume.empty())
+        volume = file.string();
+    else
+        throw UsageError("--volume is of no use here: it needs curves to be shown with");
+    if (!volume.empty()) out.levels = std::make_shared<VoxelLevels>(read_levels(volume));
+    const bool wants_voxels =
+        arguments.text("color") == "grid" || arguments.text("show") == "voxels";
+    if (wants_voxels && !out.levels && arguments.given("headless")) {
+        throw UsageError("no voxels are there to be shown: give them by --volume X.vdb");
+    }
     return out;
 }
 
@@ -153,7 +221,16 @@ window::Settings settings_of(const Arguments& arguments, const window::Subject& 
     out.orbit = orbit_of(arguments, subject, size[0] / size[1]);
     out.target_given = arguments.given("target");
     out.framed = true;
-    out.slices = look_of(arguments);
+    out.slices = slice_look(arguments);
+    out.volume = voxel_look(arguments);
+    const bool voxels = !subject.geometry || arguments.text("show") == "voxels";
+    out.show = voxels ? window::Show::Voxels : window::Show::Slices;
+    const std::string color = arguments.text("color");
+    if (voxels) {
+        out.volume.color = color_of<viewer::VoxelColor>(voxel_colors(), color, "voxels' colors");
+    } else {
+        out.slices.color = color_of<viewer::SliceColor>(slice_colors(), color, "slices' colors");
+    }
     return out;
 }
 
@@ -162,10 +239,16 @@ void run_view(const Arguments& arguments, Report& report, ProgressBar& bar) {
     if (headless && !arguments.given("output")) {
         throw UsageError("--headless needs a folder for its pictures: -o DIR");
     }
-    if (!headless && arguments.given("frames")) {
-        throw UsageError("--frames is of no use here: it needs --headless");
+    for (const char* option : {"frames", "scene"}) {
+        if (headless || !arguments.given(option)) continue;
+        throw UsageError(str("--", option, " is of no use here: it needs --headless"));
     }
     bar.begin("read", "files", 1);
+    const bool volume = arguments.given("volume") ||
+                        std::filesystem::path(arguments.text("FILE")).extension() == ".vdb";
+    if (arguments.given("scene") && !volume) {
+        throw UsageError("--scene needs a volume: open a .vdb, or give --volume X.vdb");
+    }
     const window::Subject subject = subject_of(arguments, report);
     make_folder(subject.folder);
     const window::Settings settings = settings_of(arguments, subject);
@@ -182,12 +265,16 @@ void run_view(const Arguments& arguments, Report& report, ProgressBar& bar) {
 Command view_command() {
     constexpr double kInf = std::numeric_limits<double>::infinity();
     std::vector<Option> options{
-        {"FILE", "", "", any_text(), "", "curves: .bcc .hair .data .pyp", true},
+        {"FILE", "", "", any_text(), "", "curves: .bcc .hair .data .pyp; or a .vdb of ours", true},
+        {"--volume", "X.vdb", "", any_text(), "", "voxels to be shown beside curves"},
         {"-o, --output", "DIR", "(here)", any_text(), "",
          "where the window saves; with --headless: folder of the pictures, frame_0000.png on"},
         {"--headless", "", "", flag(), "", "pictures, without a window or a display"},
         {"--frames", "N", "1", integer(1, 10000), "pictures",
          "with --headless: once around the object"},
+        {"--scene", "", "", flag(), "",
+         "with --headless: a scene for render beside the pictures, with the first one's camera and "
+         "light"},
     };
     for (const std::vector<Option>& more : {load_options(), model_options()}) {
         for (const Option& row : more) {
@@ -207,9 +294,20 @@ Command view_command() {
         {"--view-angle", "A", "35", number(0, 170), "degrees",
          "across the picture's height; 0 = parallel rays"},
         {"--size", "WxH", "960x960", numbers(2, 2, 1, 8192, 'x'), "pixels", "of a picture"},
-        {"--color", "MODE", "shaded", one_of({"shaded", "direction"}), "",
-         "direction: x^2, y^2, z^2 of the fiber's as red, green, blue"},
-        {"--opacity", "K", "1", positive(), "", "multiplies how much a slice hides"},
+        {"--show", "WHAT", "slices", one_of({"slices", "voxels"}), "",
+         "of curves with --volume; a .vdb alone is shown as voxels"},
+        {"--color", "MODE", "shaded",
+         one_of({"shaded", "direction", "grid", "density", "tangent", "width", "material", "block",
+                 "level"}),
+         "",
+         "of slices: shaded; direction: x^2, y^2, z^2 of the fiber's as red, green, blue; grid: of "
+         "the direction that voxels store; of voxels: all but direction and grid"},
+        {"--opacity", "K", "1", positive(), "", "multiplies how much slices and voxels hide"},
+        {"--level", "N", "(by each pixel's width)", integer(0, 1000), "",
+         "of voxels; 0 = the finest"},
+        {"--blocks", "", "", flag(), "", "draws edges of occupied blocks of 32 voxels each way"},
+        {"--white-block", "X,Y,Z", "", numbers(3, 3, -1e6, 1e6), "blocks",
+         "shows this block in white, voxel by voxel; of slices with --color grid"},
         {"--blend", "MODE", "sorted", one_of({"sorted", "weighted", "placed"}), "",
          "weighted: no order shows, also taken where slices exceed --memory; placed: as they come, "
          "to compare"},
@@ -219,8 +317,9 @@ Command view_command() {
         {"--no-occlusion", "", "", flag(), "", "leaves out what fibers hide in their section"},
     };
     options.insert(options.end(), more.begin(), more.end());
-    return {"view", "a window on yarns as shaded slices, by OpenGL; or pictures of them", options,
-            run_view};
+    return {"view",
+            "a window on yarns as shaded slices and on volumes, by OpenGL; or pictures of them",
+            options, run_view};
 }
 
 } // namespace heddle::cli

@@ -9,6 +9,9 @@
 #include <heddle/viewer/seen_slices.h>
 #include <heddle/viewer/view_glsl.h>
 #include <heddle/viewer/view_sections.h>
+#include <heddle/viewer/voxel_table_glsl.h>
+#include <heddle/viewer/voxel_tables.h>
+#include <heddle/viewer/voxel_view.h>
 #include <heddle/viewer/weighted_blend.h>
 
 #include <epoxy/gl.h>
@@ -16,6 +19,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -70,6 +74,14 @@ Program slab_program(const char* name, std::initializer_list<std::string_view> f
     return Program::draw(name, shared, vertex, body);
 }
 
+/// Slabs with colours of voxels.
+struct GridPrograms {
+    Program over = slab_program("color slices",
+                                {kDepthGlsl, kVoxelTableGlsl, kGridGlsl, kShadeGlsl, kOverGlsl});
+    Program weigh = slab_program("weigh colors",
+                                 {kDepthGlsl, kVoxelTableGlsl, kGridGlsl, kShadeGlsl, kWeighGlsl});
+};
+
 /// A map of another size than the picture is drawn whole.
 class ScissorOff {
 public:
@@ -117,8 +129,9 @@ struct SliceView::Scene {
     raster::EmptyFrame frame;
     std::optional<SeenSlices> slices;
     Program nearest = slab_program("find what is nearest", {kDepthGlsl, kNearestGlsl});
-    Program over = slab_program("shade slices", {kDepthGlsl, kShadeGlsl, kOverGlsl});
-    Program weigh = slab_program("weigh slices", {kDepthGlsl, kShadeGlsl, kWeighGlsl});
+    Program over = slab_program("shade slices", {kDepthGlsl, kNoGridGlsl, kShadeGlsl, kOverGlsl});
+    Program weigh = slab_program("weigh slices", {kDepthGlsl, kNoGridGlsl, kShadeGlsl, kWeighGlsl});
+    std::optional<GridPrograms> grid; ///< made when they are asked for
 
     struct ShadowMap {
         Vec3d light; ///< that it was drawn for
@@ -150,7 +163,14 @@ struct SliceView::Scene {
     void draw_nearest(const EyeFrame& eye, const SliceLook& look, double shift, const Buffer& map);
     [[nodiscard]] Ball shadowed_part(const CameraView& camera, double aspect) const;
     void draw_shadows(const SliceLook& look, const Ball& part);
-    void draw_weighted(const ViewTarget& target, const EyeFrame& eye, const SliceLook& look);
+    void set_grid(const Program& program,
+                  const EyeFrame& eye,
+                  const SliceLook& look,
+                  const VoxelView& voxels) const;
+    void draw_weighted(const ViewTarget& target,
+                       const Program& program,
+                       const EyeFrame& eye,
+                       const SliceLook& look);
 };
 
 void SliceView::Scene::place(double asked_pixel) {
@@ -263,7 +283,20 @@ void SliceView::Scene::set_light(const Program& program,
     if (look.shadows) shadows.at(look.map_size).depths.bind_storage(4);
 }
 
+void SliceView::Scene::set_grid(const Program& program,
+                                const EyeFrame& eye,
+                                const SliceLook& look,
+                                const VoxelView& voxels) const {
+    constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::min();
+    program.set("eye_place", to_float(eye.eye * units.unit));
+    program.set("unit", static_cast<float>(units.unit));
+    program.set("block_edge", to_float(voxels.tables().block_size()));
+    program.set("white_block", look.white_block.value_or(Vec3i{kNone, kNone, kNone}));
+    voxels.bind_tables();
+}
+
 void SliceView::Scene::draw_weighted(const ViewTarget& target,
+                                     const Program& program,
                                      const EyeFrame& eye,
                                      const SliceLook& look) {
     if (!blend || blend_width != eye.width || blend_height != eye.height) {
@@ -279,10 +312,10 @@ void SliceView::Scene::draw_weighted(const ViewTarget& target,
     blend->begin();
     for (std::size_t c = 0; c < slices->chunk_count(); ++c) {
         const std::uint32_t slabs = slices->see(c, eye, middle(), false);
-        set_common(weigh, eye, look);
-        set_light(weigh, eye, look);
-        weigh.set("eye_scale", static_cast<float>(kDepths * units.unit / (4.0 * ball.radius)));
-        weigh.set("eye_shift", static_cast<float>(first));
+        set_common(program, eye, look);
+        set_light(program, eye, look);
+        program.set("eye_scale", static_cast<float>(kDepths * units.unit / (4.0 * ball.radius)));
+        program.set("eye_shift", static_cast<float>(first));
         front->bind_storage(5);
         ViewTarget::draw_quads(slabs);
     }
@@ -339,9 +372,15 @@ bool SliceView::is_split() const {
 void SliceView::draw(const ViewTarget& target,
                      const CameraView& camera,
                      const SliceLook& look,
+                     const VoxelView* grid,
                      SliceTimes* times) {
     using Clock = std::chrono::steady_clock;
     check_look(look);
+    const bool of_grid = look.color == SliceColor::Grid;
+    if (of_grid && grid == nullptr) {
+        throw Error(ErrorCode::InvalidArgument, "view: no voxels are there to take colors from",
+                    "voxelize first, or use another color");
+    }
     Scene& s = *scene_;
     const EyeFrame eye(camera, target.width(), target.height(), s.units.unit);
     const auto start = Clock::now();
@@ -358,14 +397,19 @@ void SliceView::draw(const ViewTarget& target,
     }
     const auto shadowed = waited("shadows");
     auto sorted = shadowed;
-    if (look.weighted || is_split()) {
-        s.draw_weighted(target, eye, look);
+    const bool weighted = look.weighted || is_split();
+    if (of_grid && !s.grid) s.grid.emplace();
+    const Program& program =
+        of_grid ? (weighted ? s.grid->weigh : s.grid->over) : (weighted ? s.weigh : s.over);
+    if (of_grid) s.set_grid(program, eye, look, *grid);
+    if (weighted) {
+        s.draw_weighted(target, program, eye, look);
     } else {
         const std::uint32_t slabs = s.slices->see(0, eye, s.middle(), look.sorted);
         sorted = waited("sort slices");
         target.begin();
-        s.set_common(s.over, eye, look);
-        s.set_light(s.over, eye, look);
+        s.set_common(program, eye, look);
+        s.set_light(program, eye, look);
         ViewTarget::draw_quads(slabs);
     }
     const auto drawn = waited("draw slices");

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 namespace heddle::viewer {
 
@@ -19,8 +20,9 @@ struct SliceViewOptions {
 };
 
 enum class SliceColor : std::uint8_t {
-    Shaded,   ///< Kajiya and Kay's model
-    Direction ///< x^2, y^2, z^2 of the fiber's direction as red, green, blue
+    Shaded,    ///< Kajiya and Kay's model
+    Direction, ///< x^2, y^2, z^2 of the fiber's direction as red, green, blue
+    Grid       ///< the same of the direction that voxels store there; grey where there is no voxel
 };
 
 /// How slices look.
@@ -34,8 +36,11 @@ struct SliceLook {
     double opacity = 1.0;  ///< multiplies what a texel of a slice hides, > 0
     std::int32_t map_size = 1024; ///< of the shadow map, pixels, 16 to 8192
     SliceColor color = SliceColor::Shaded;
+    std::optional<Vec3i> white_block{}; ///< with Grid: what lies in this block is white
     bool operator==(const SliceLook&) const = default;
 };
+
+class VoxelView;
 
 /// Seconds of a picture's stages, each waited for.
 struct SliceTimes {
@@ -64,11 +69,13 @@ public:
     void fit(double pixel);
     /// Draws over what the target holds, within its limit. Shadow maps are kept, one of each size, and so is
     /// the order, until what they are made of changes.
+    /// @param grid   voxels for SliceColor::Grid; null: none
     /// @param times  waited for and filled in where it is there
-    /// @throws Error  InvalidArgument: a direction without length; Device, OutOfMemory
+    /// @throws Error  InvalidArgument: a direction without length, Grid without voxels; Device, OutOfMemory
     void draw(const ViewTarget& target,
               const CameraView& camera,
               const SliceLook& look,
+              const VoxelView* grid = nullptr,
               SliceTimes* times = nullptr);
 
     [[nodiscard]] std::int64_t slice_count() const;

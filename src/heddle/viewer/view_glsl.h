@@ -196,6 +196,28 @@ void main() {
 }
 )";
 
+/// GLSL, fragment: where there are no voxels to take a colour from.
+inline constexpr std::string_view kNoGridGlsl = R"(
+vec3 grid_color(vec3 from_eye) { return vec3(0.0); }
+)";
+
+/// GLSL, fragment: the direction that voxels store where a slab is seen, white in one block, grey where there is no
+/// voxel. Needs kVoxelTableGlsl.                                                    [LopezMoreno17, fig. 14]
+inline constexpr std::string_view kGridGlsl = R"(
+uniform vec3 eye_place; // scene units
+uniform float unit;     // scene units
+uniform vec3 block_edge; // scene units
+uniform ivec3 white_block;
+
+vec3 grid_color(vec3 from_eye) {
+    vec3 place = eye_place + unit * from_eye;
+    if (ivec3(floor(place / block_edge)) == white_block) return vec3(1.0);
+    vec3 axis;
+    float density;
+    return voxel_at(place, 0, axis, density) ? axis * axis : vec3(0.35);
+}
+)";
+
 /// GLSL, fragment: a slab's colour: Kajiya and Kay's model of a thread under one distant light, the
 /// shadow map, and the section's occlusion.                                        [LopezMoreno17, 4.2]
 inline constexpr std::string_view kShadeGlsl = R"(
@@ -206,8 +228,10 @@ uniform vec3 light_middle;                      // of the map, in the eye's axes
 uniform float light_pixel;                      // units
 uniform int shadow_size;                        // 0: none
 uniform int occlusion;
-uniform int color_mode;                         // 0 shaded, 1 the fiber's direction
+uniform int color_mode;                         // 0 shaded, 1 the fiber's direction, 2 the grid's
 uniform vec3 world_x, world_y, world_z;         // in the eye's axes
+
+vec3 in_world(vec3 v) { return vec3(dot(world_x, v), dot(world_y, v), dot(world_z, v)); }
 
 float lit(vec3 at) {
     if (shadow_size == 0) return 1.0;
@@ -228,9 +252,9 @@ float lit(vec3 at) {
 
 vec3 shade(Look look) {
     vec3 t = normalize(look.direction);
-    if (color_mode == 1) {
-        vec3 w = vec3(dot(world_x, t), dot(world_y, t), dot(world_z, t));
-        return w * w;
+    if (color_mode != 0) {
+        vec3 w = in_world(t);
+        return color_mode == 2 ? grid_color(in_world(ray + look.t * way)) : w * w;
     }
     float along_light = dot(t, to_light);
     float along_eye = -dot(t, way);

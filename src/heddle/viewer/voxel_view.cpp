@@ -138,14 +138,23 @@ void VoxelView::draw(const ViewTarget& target,
     scene_->set_colors(eye, look);
     scene_->rays.use();
     glDrawArrays(GL_TRIANGLES, 0, 3);
-    if (look.blocks) {
-        scene_->set_walk(scene_->lines, eye, look);
-        scene_->lines.set("block_size", to_float(scene_->tables.block_size()));
-        scene_->edges.bind_storage(kEdgesStorage);
-        scene_->lines.use();
-        ViewTarget::draw_quads(static_cast<std::uint32_t>(scene_->list.size()));
-    }
     scene_->context.check("cast rays at voxels");
+    if (look.blocks) draw_blocks(target, camera, look);
+}
+
+void VoxelView::draw_blocks(const ViewTarget& target,
+                            const CameraView& camera,
+                            const VoxelLook& look) const {
+    if (scene_->tables.empty()) return;
+    const EyeFrame eye(camera, target.width(), target.height(), 1.0);
+    target.begin();
+    scene_->tables.bind();
+    scene_->set_walk(scene_->lines, eye, look);
+    scene_->lines.set("block_size", to_float(scene_->tables.block_size()));
+    scene_->edges.bind_storage(kEdgesStorage);
+    scene_->lines.use();
+    ViewTarget::draw_quads(static_cast<std::uint32_t>(scene_->list.size()));
+    scene_->context.check("draw blocks");
 }
 
 std::optional<Vec3i> VoxelView::block_at(

@@ -66,6 +66,11 @@ public:
     /// @throws Error  InvalidArgument: a direction without length, a look out of range; Device
     void draw(const ViewTarget& target, const CameraView& camera, const VoxelLook& look) const;
 
+    /// The edges of occupied blocks alone, over what the target holds; dim where voxels hide them.
+    /// @throws Error  as draw
+    void
+    draw_blocks(const ViewTarget& target, const CameraView& camera, const VoxelLook& look) const;
+
     /// The first occupied block under a pixel, counted in blocks of 32^3 of the finest voxels; none where
     /// there is none. A block may be met where the ray passes its voxels by.
     /// @param width, height  of the picture, pixels

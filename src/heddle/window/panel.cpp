@@ -44,18 +44,34 @@ void yarn_controls(const Session& session, Settings& s, PanelState& state) {
     slide("density", s.slices.opacity, 0.05, 20.0, "x %.2f", true);
 }
 
+void volume_controls(const Session& session, Settings& s) {
+    ImGui::SameLine();
+    ImGui::Checkbox("blocks", &s.volume.blocks);
+    if (s.show == Show::Slices) return;
+    int color = static_cast<int>(s.volume.color);
+    if (choose("color", color,
+               std::array{"shaded", "density", "tangent", "width", "material", "block", "level"})) {
+        s.volume.color = static_cast<viewer::VoxelColor>(color);
+    }
+    ImGui::SliderInt("level", &s.volume.level, -1, session.level_count() - 1,
+                     s.volume.level < 0 ? "by footprint" : "%d");
+    slide("density##volume", s.volume.density_scale, 0.05, 20.0, "x %.2f", true);
+}
+
 void look_controls(const Session& session, Settings& s) {
     if (!ImGui::CollapsingHeader("Look", ImGuiTreeNodeFlags_DefaultOpen)) return;
     if (session.has_slices() && session.has_voxels()) {
         int show = static_cast<int>(s.show);
         if (choose("show", show, std::array{"slices", "voxels"})) s.show = static_cast<Show>(show);
     }
-    ImGui::Checkbox("shadows", &s.slices.shadows);
+    ImGui::Checkbox("shadows", s.show == Show::Slices ? &s.slices.shadows : &s.volume.shadows);
     if (s.show == Show::Slices) {
         ImGui::SameLine();
         ImGui::Checkbox("occlusion", &s.slices.occlusion);
         int color = static_cast<int>(s.slices.color);
-        if (choose("color", color, std::array{"shaded", "direction"})) {
+        if (session.has_voxels()
+                ? choose("color", color, std::array{"shaded", "direction", "of the voxels"})
+                : choose("color", color, std::array{"shaded", "direction"})) {
             s.slices.color = static_cast<viewer::SliceColor>(color);
         }
         int blend = s.slices.weighted ? 1 : s.slices.sorted ? 0 : 2;
@@ -64,6 +80,7 @@ void look_controls(const Session& session, Settings& s) {
             s.slices.sorted = blend != 2;
         }
     }
+    if (session.has_voxels()) volume_controls(session, s);
     double degrees = s.orbit.view_angle * 57.29577951308232;
     if (slide("view angle", degrees, 0.0, 120.0, "%.0f deg", false)) {
         s.orbit.view_angle = degrees / 57.29577951308232;

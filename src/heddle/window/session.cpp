@@ -4,6 +4,7 @@
 #include <heddle/io/image/image.h>
 #include <heddle/io/output_file.h>
 #include <heddle/io/vdb/write_vdb.h>
+#include <heddle/viewer/voxel_tables.h>
 #include <heddle/window/save_scene.h>
 #include <heddle/window/voxelize_seen.h>
 
@@ -18,7 +19,8 @@ constexpr std::int32_t kCoarseMap = 256; ///< shadow map while the view moves, p
 
 /// What of the settings a picture of slices or voxels shows.
 bool same_picture(const Settings& a, const Settings& b) {
-    return a.orbit == b.orbit && a.show == b.show && a.slices == b.slices && a.yarns == b.yarns;
+    return a.orbit == b.orbit && a.show == b.show && a.slices == b.slices && a.volume == b.volume &&
+           a.yarns == b.yarns;
 }
 
 } // namespace
@@ -28,6 +30,18 @@ Bounds bounds_of(const Subject& subject) {
     if (subject.geometry) {
         for (const CurveSet& set : subject.geometry->curves) {
             for (const Vec3f& p : set.points) out.grow(to_double(p));
+        }
+    }
+    if (!subject.levels || !out.empty()) return out;
+    const VoxelSource& coarsest = *subject.levels->back();
+    const Vec3d size = coarsest.info().lattice.voxel_size;
+    VoxelBlock scratch;
+    for (std::size_t b = 0; b < coarsest.block_count(); ++b) {
+        for (const VoxelLeaf& leaf : coarsest.block(b, scratch).leaves) {
+            const Vec3i end = leaf.origin + Vec3i{8, 8, 8};
+            const Vec3i lo = leaf.origin;
+            out.grow(Vec3d{lo.x * size.x, lo.y * size.y, lo.z * size.z});
+            out.grow(Vec3d{end.x * size.x, end.y * size.y, end.z * size.z});
         }
     }
     return out;
@@ -48,6 +62,7 @@ Session::Session(const raster::Context& context,
     }
     if (subject_.levels) show_voxels();
     if (!slices_) settings_.show = Show::Voxels;
+    if (!voxels_) settings_.show = Show::Slices;
     resize(width, height);
     if (settings_.framed) frame_first();
 }
@@ -96,10 +111,16 @@ void Session::set(const Settings& settings) {
 
 void Session::draw(const viewer::ViewTarget& target, bool coarse, viewer::SliceTimes* times) {
     const CameraView camera = settings_.orbit.camera();
-    if (settings_.show == Show::Slices) {
+    viewer::VoxelLook volume = settings_.volume;
+    if (volume.light) volume.light = settings_.slices.light;
+    if (settings_.show == Show::Voxels) {
+        voxels_->draw(target, camera, volume);
+    } else {
         viewer::SliceLook look = settings_.slices;
         if (coarse) look.map_size = std::min(look.map_size, kCoarseMap);
-        slices_->draw(target, camera, look, times);
+        if (voxels_) look.white_block = volume.white_block;
+        slices_->draw(target, camera, look, voxels_.get(), times);
+        if (voxels_ && volume.blocks) voxels_->draw_blocks(target, camera, volume);
     }
     context_.check("draw");
 }
@@ -179,18 +200,41 @@ void Session::take_result() {
     job_.reset();
     message_ = result->message;
     if (!result->levels) return;
-    subject_.levels = std::move(result->levels);
-    attempt([&] {
-        show_voxels();
+    std::swap(subject_.levels, result->levels);
+    const bool shown = attempt([&] { show_voxels(); });
+    if (shown)
         settings_.show = Show::Voxels;
-    });
+    else
+        subject_.levels = std::move(result->levels);
+    settings_.volume.white_block.reset();
     picture_->restart();
 }
 
-void Session::show_voxels() {}
+void Session::show_voxels() {
+    Progress silent;
+    voxels_ = std::make_unique<viewer::VoxelView>(context_, viewer::sources_of(*subject_.levels),
+                                                  viewer::VoxelViewOptions{}, silent);
+    const int first = voxels_->tables().first_level();
+    if (first > 0) {
+        message_ = str("levels below ", first, " exceed the driver's buffers and are not shown");
+    }
+}
+
+void Session::pick_block(double x, double y) {
+    if (!voxels_) return;
+    Settings next = settings_;
+    const std::optional<Vec3i> found = voxels_->block_at(
+        settings_.orbit.camera(), picture_->fine().width(), picture_->fine().height(), x, y);
+    next.volume.white_block = found == settings_.volume.white_block ? std::nullopt : found;
+    set(next);
+}
+
+int Session::level_count() const {
+    return voxels_ ? voxels_->tables().level_count() : 0;
+}
 
 std::string Session::place_of(const char* suffix) const {
-    return (std::filesystem::path(subject_.folder) / (subject_.name + suffix)).string();
+    return (std::filesystem::path(subject_.folder) / (subject_.name + "_view" + suffix)).string();
 }
 
 void Session::save_picture() {
@@ -209,15 +253,17 @@ void Session::write_picture() {
     });
 }
 
+std::string Session::scene(const std::string& volume) const {
+    return scene_text(volume, settings_.orbit.camera(), settings_.slices.light,
+                      picture_->fine().width(), picture_->fine().height());
+}
+
 void Session::save(bool scene) {
     if (!has_voxels()) {
         message_ = "no voxels are there yet: voxelize first";
         return;
     }
-    const std::string text =
-        scene ? scene_text(subject_.name + ".vdb", settings_.orbit.camera(), settings_.slices.light,
-                           picture_->fine().width(), picture_->fine().height())
-              : std::string();
+    const std::string text = scene ? this->scene(subject_.name + "_view.vdb") : std::string();
     start([levels = subject_.levels, text, volume = place_of(".vdb"),
            place = place_of(".toml")](Progress& progress) -> JobResult {
         write_vdb(*levels, volume, progress);
@@ -230,7 +276,9 @@ void Session::save(bool scene) {
 }
 
 viewer::Ball Session::ball() const {
-    return slices_ ? slices_->ball() : viewer::Ball{{}, 1.0};
+    if (slices_) return slices_->ball();
+    const viewer::Ball ball = voxels_->ball();
+    return ball.radius > 0.0 ? ball : viewer::Ball{{}, 1.0};
 }
 
 /// From the unit ball to what is there.

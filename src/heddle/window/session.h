@@ -2,6 +2,7 @@
 
 #include <heddle/raster/context.h>
 #include <heddle/viewer/slice_view.h>
+#include <heddle/viewer/voxel_view.h>
 #include <heddle/voxel/voxel_grid.h>
 #include <heddle/window/job.h>
 #include <heddle/window/refiner.h>
@@ -64,20 +65,27 @@ public:
     void voxelize();
     void stop_job();
     [[nodiscard]] const Job* job() const { return job_.get(); }
-    [[nodiscard]] bool has_voxels() const { return subject_.levels != nullptr; }
+    [[nodiscard]] bool has_voxels() const { return voxels_ != nullptr; }
     [[nodiscard]] bool has_slices() const { return slices_ != nullptr; }
 
-    /// NAME.png: the picture, when it is whole.
+    /// NAME_view.png: the picture, when it is whole.
     void save_picture();
-    /// NAME.vdb: the voxels; on a thread, as voxelize().
+    /// NAME_view.vdb: the voxels; on a thread, as voxelize().
     void save_voxels() { save(false); }
-    /// NAME.vdb, and NAME.toml for `heddle render`.
+    /// NAME_view.vdb, and NAME_view.toml for `heddle render`.
     void save_scene() { save(true); }
 
+    /// A scene file that shows a volume as the view does.
+    [[nodiscard]] std::string scene(const std::string& volume) const;
+
     void frame_all();
+    /// Makes the block under a pixel white, or none where it is white already or there is none.
+    /// @param x, y  pixels from the picture's upper left corner
+    void pick_block(double x, double y);
     [[nodiscard]] const std::string& message() const { return message_; }
     [[nodiscard]] const Subject& subject() const { return subject_; }
     [[nodiscard]] std::int64_t slice_count() const;
+    [[nodiscard]] int level_count() const;   ///< of the voxels; 0: none are there
     [[nodiscard]] std::string blend() const; ///< how slices are put over each other, in words
     /// Names of what Settings::yarns edit.
     [[nodiscard]] const std::vector<std::string>& kinds() const { return kinds_; }
@@ -102,6 +110,7 @@ private:
     Settings settings_;
     std::vector<std::string> kinds_;
     std::unique_ptr<viewer::SliceView> slices_;
+    std::unique_ptr<viewer::VoxelView> voxels_;
     std::unique_ptr<Refiner> picture_;
     std::unique_ptr<Job> job_;
     bool picture_wanted_ = false;

@@ -89,22 +89,22 @@ TEST_F(SessionTest, VoxelizesWhatIsSeenByBothBackendsAndSavesIt) {
         session.save_scene();
         ASSERT_TRUE(settle(session));
         EXPECT_EQ(session.message().rfind("saved ", 0), 0u) << session.message();
-        const std::vector<VoxelGridInfo> saved = read_infos((folder_ / "fiber.vdb").string());
+        const std::vector<VoxelGridInfo> saved = read_infos((folder_ / "fiber_view.vdb").string());
         EXPECT_EQ(saved.front().voxel_count, info.voxel_count);
         EXPECT_GT(info.voxel_count, 0);
-        EXPECT_TRUE(std::filesystem::exists(folder_ / "fiber.toml"));
+        EXPECT_TRUE(std::filesystem::exists(folder_ / "fiber_view.toml"));
     }
 }
 
 TEST_F(SessionTest, SavesAPictureThatIsWhole) {
     Session session(context_, subject_, settings_, kSize, kSize);
     session.save_picture();
-    EXPECT_FALSE(std::filesystem::exists(folder_ / "fiber.png")) << "it is not there yet";
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "fiber_view.png")) << "it is not there yet";
     ASSERT_TRUE(settle(session));
-    EXPECT_TRUE(std::filesystem::exists(folder_ / "fiber.png")) << session.message();
-    std::filesystem::remove(folder_ / "fiber.png");
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "fiber_view.png")) << session.message();
+    std::filesystem::remove(folder_ / "fiber_view.png");
     session.save_picture();
-    EXPECT_TRUE(std::filesystem::exists(folder_ / "fiber.png")) << "it was";
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "fiber_view.png")) << "it was";
 }
 
 TEST_F(SessionTest, WhatFailsIsALineAndLeavesTheRest) {
@@ -126,7 +126,7 @@ TEST_F(SessionTest, WhatFailsIsALineAndLeavesTheRest) {
     EXPECT_NE(session.message().find("voxel"), std::string::npos) << session.message();
     std::filesystem::remove_all(folder_);
     session.save_picture();
-    EXPECT_NE(session.message().find("fiber.png"), std::string::npos) << session.message();
+    EXPECT_NE(session.message().find("fiber_view.png"), std::string::npos) << session.message();
     EXPECT_EQ(session.message().rfind("saved", 0), std::string::npos) << session.message();
 }
 

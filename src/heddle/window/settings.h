@@ -3,6 +3,7 @@
 #include <heddle/raster/voxelize_slices.h>
 #include <heddle/viewer/orbit.h>
 #include <heddle/viewer/slice_view.h>
+#include <heddle/viewer/voxel_view.h>
 #include <heddle/window/yarn_edit.h>
 
 #include <string>
@@ -16,9 +17,8 @@ enum class Show : std::uint8_t { Slices, Voxels };
 struct VoxelSettings {
     bool raster = false; ///< slices drawn by OpenGL; else fibers
     raster::Composition composition = raster::Composition::Accumulate;
-    double edge_px = 2.0;   ///< of a voxel, pixels at the target, > 0
-    bool only_seen = true;  ///< else all of the object
-    bool levels_all = true; ///< levels of detail are shown by footprint; else the finest alone
+    double edge_px = 2.0;  ///< of a voxel, pixels at the target, > 0
+    bool only_seen = true; ///< else all of the object
     bool operator==(const VoxelSettings&) const = default;
 };
 
@@ -28,7 +28,8 @@ struct Settings {
     bool framed = false; ///< the orbit is about the unit ball, and is to be moved to what is there,
     bool target_given = false; ///< but for its target
     Show show = Show::Slices;
-    viewer::SliceLook slices;
+    viewer::SliceLook slices; ///< its light is that of voxels too
+    viewer::VoxelLook volume; ///< of voxels; its blocks and white block are shown over slices too
     std::vector<YarnEdit> yarns;
     VoxelSettings voxels;
 };

@@ -181,6 +181,7 @@ private:
         case GLFW_KEY_S: session_.save_picture(); break;
         case GLFW_KEY_W: session_.save_voxels(); break;
         case GLFW_KEY_E: session_.save_scene(); break;
+        case GLFW_KEY_B: session_.pick_block(x_, y_); break;
         case GLFW_KEY_ESCAPE: session_.stop_job(); break;
         case GLFW_KEY_Q: glfwSetWindowShouldClose(window_, GLFW_TRUE); break;
         case GLFW_KEY_1: change([](Settings& s) { s.show = Show::Slices; }); break;
