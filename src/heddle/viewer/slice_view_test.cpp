@@ -3,6 +3,7 @@
 #include <heddle/base/error.h>
 #include <heddle/geom/generate.h>
 #include <heddle/geom/slice_image.h>
+#include <heddle/viewer/voxel_view.h>
 #include <heddle/voxel/test_voxelize.h>
 
 #include <gtest/gtest.h>
@@ -228,6 +229,43 @@ TEST(SliceView, DirectionsAreThoseOfTheYarnsInTheWorld) {
     const Rgb along_x = pixel(image, kSize / 2 + 8, kSize / 2 - 1);
     EXPECT_GT(along_x[0], 250);
     EXPECT_LT(along_x[1], 40);
+}
+
+TEST(SliceView, GridShowsTheDirectionThatVoxelsStoreAndGreyWhereThereIsNone) {
+    const raster::Context context;
+    const Geometry geometry = cross_at(0.3f);
+    SliceView view(context, geometry, {});
+    VoxelizeOptions options;
+    options.voxel_size = {0.05, 0.05, 0.05};
+    options.bounds = Bounds{{-2.0, -2.0, -2.0}, {0.0, 2.0, 2.0}}; // half of the red yarn
+    const VoxelizePlan plan = plan_voxelize(geometry, options);
+    Progress silent;
+    const std::unique_ptr<VoxelSource> grid = voxelize(geometry, options, plan, silent);
+    const VoxelSource* const levels[] = {grid.get()};
+    const VoxelView voxels(context, levels, {}, silent);
+    SliceLook look = look_of(true, false);
+    look.color = SliceColor::Grid;
+    const auto draw = [&](const SliceLook& how) {
+        Orbit orbit{.from = kFront};
+        orbit.frame(view.ball(), 1.0);
+        const ViewTarget target(kSize, kSize);
+        target.clear();
+        view.draw(target, orbit.camera(), how, &voxels);
+        return target.image();
+    };
+    for (const bool weighted : {false, true}) {
+        look.weighted = weighted;
+        const ViewImage image = draw(look);
+        const Rgb stored = pixel(image, kSize / 2 - 8, kSize / 2);
+        EXPECT_GT(stored[0], 245) << "along x";
+        EXPECT_LT(stored[1], 90);
+        const Rgb none = pixel(image, kSize / 2 + 8, kSize / 2);
+        EXPECT_EQ(none[0], none[1]);
+        EXPECT_EQ(none[1], none[2]);
+    }
+    look.white_block = Vec3i{-1, 0, 0}; // of 1.6: x and y of the yarn's upper half
+    EXPECT_EQ(pixel(draw(look), kSize / 2 - 8, kSize / 2 - 1), (Rgb{255, 255, 255}));
+    EXPECT_THROW((void)picture(view, kFront, look), Error) << "no voxels";
 }
 
 TEST(SliceView, WhatCannotBeShownIsOneLine) {

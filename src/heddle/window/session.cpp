@@ -33,11 +33,11 @@ Bounds bounds_of(const Subject& subject) {
         }
     }
     if (!subject.levels || !out.empty()) return out;
-    const VoxelSource& coarsest = *subject.levels->back();
-    const Vec3d size = coarsest.info().lattice.voxel_size;
+    const VoxelSource& finest = *subject.levels->front();
+    const Vec3d size = finest.info().lattice.voxel_size;
     VoxelBlock scratch;
-    for (std::size_t b = 0; b < coarsest.block_count(); ++b) {
-        for (const VoxelLeaf& leaf : coarsest.block(b, scratch).leaves) {
+    for (std::size_t b = 0; b < finest.block_count(); ++b) {
+        for (const VoxelLeaf& leaf : finest.block(b, scratch).leaves) {
             const Vec3i end = leaf.origin + Vec3i{8, 8, 8};
             const Vec3i lo = leaf.origin;
             out.grow(Vec3d{lo.x * size.x, lo.y * size.y, lo.z * size.z});

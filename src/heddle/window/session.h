@@ -26,7 +26,7 @@ struct Subject {
     std::string folder = ".";      ///< where files are saved
 };
 
-/// A box around the control points, or the voxels where there are none.
+/// A box around the control points, or where there are none around the leaves of 8^3 voxels.
 [[nodiscard]] Bounds bounds_of(const Subject& subject);
 
 /// What a view holds and does, without a window: settings in, pictures, voxels and files out. What fails

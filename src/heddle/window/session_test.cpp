@@ -96,6 +96,44 @@ TEST_F(SessionTest, VoxelizesWhatIsSeenByBothBackendsAndSavesIt) {
     }
 }
 
+TEST_F(SessionTest, OpensAVolumeAloneOrBesideItsCurves) {
+    {
+        Session session(context_, subject_, settings_, kSize, kSize);
+        session.voxelize();
+        ASSERT_TRUE(settle(session)) << session.message();
+        session.save_voxels();
+        ASSERT_TRUE(settle(session)) << session.message();
+    }
+    Subject volume;
+    volume.name = "volume";
+    volume.levels =
+        std::make_shared<VoxelLevels>(read_levels((folder_ / "fiber_view.vdb").string()));
+    EXPECT_NEAR(bounds_of(volume).lo.x, -1.0, 8.0 * 2.0 * 3.0 / kSize); // a leaf
+    Settings framed;
+    framed.framed = true;
+    Session alone(context_, volume, framed, kSize, kSize);
+    EXPECT_EQ(alone.settings().show, Show::Voxels);
+    ASSERT_TRUE(settle(alone));
+    EXPECT_GT(darkness(alone), 0.02);
+    alone.voxelize();
+    EXPECT_EQ(alone.job(), nullptr) << "there are no curves";
+    alone.pick_block(kSize * 0.5, kSize * 0.5);
+    EXPECT_TRUE(alone.settings().volume.white_block.has_value());
+    alone.pick_block(kSize * 0.5, kSize * 0.5);
+    EXPECT_FALSE(alone.settings().volume.white_block.has_value()) << "a second time: none";
+
+    subject_.levels = volume.levels;
+    Session beside(context_, subject_, settings_, kSize, kSize);
+    EXPECT_EQ(beside.settings().show, Show::Slices);
+    ASSERT_TRUE(settle(beside));
+    const double without = darkness(beside);
+    Settings blocks = beside.settings();
+    blocks.volume.blocks = true;
+    beside.set(blocks);
+    ASSERT_TRUE(settle(beside));
+    EXPECT_GT(darkness(beside), without + 0.005) << "edges of blocks are drawn over slices";
+}
+
 TEST_F(SessionTest, SavesAPictureThatIsWhole) {
     Session session(context_, subject_, settings_, kSize, kSize);
     session.save_picture();
