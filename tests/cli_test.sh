@@ -80,6 +80,28 @@ for path in fragment compute; do
     works info path.vdb --json && [ "$(json content_hash)" = "$hash1" ] || wrong "raster: other bits by $path shaders"
 done
 
+
+# a sequence in one run: each frame has the bits of a run of its own, and is kept where a later one fails
+for k in 1 2 3; do works generate knit --counts $((k + 1)),2 -o cloth_000$k.bcc; done
+fails 2 "must hold the frame's number once" voxelize cloth.bcc --frames 1-3 -o 'o_%02d.vdb'
+fails 2 "--output: 'o.vdb' must hold" voxelize 'cloth_%04d.bcc' --frames 1-3 -o o.vdb
+fails 2 "is no range" voxelize 'cloth_%04d.bcc' --frames 3-1 -o 'o_%02d.vdb'
+fails 2 "it needs curves or meshes" voxelize 'cloth_%04d.vol' --frames 1-3 -o 'o_%02d.vdb'
+for backend in sample raster; do
+    works voxelize 'cloth_%04d.bcc' --frames 1-3:2 --yarn slice.toml --voxels 32 --backend $backend -o 'o_%02d.vdb' --json
+    grep -q '"file": "cloth_0003.bcc"' out.txt || wrong "frames: no row for the second"
+    [ ! -e o_02.vdb ] || wrong "frames: a step was not taken"
+    works voxelize cloth_0003.bcc --yarn slice.toml --voxels 32 --backend $backend -o alone.vdb
+    works info alone.vdb --json && alone=$(json content_hash)
+    works info o_03.vdb --json && [ "$(json content_hash)" = "$alone" ] || wrong "frames: other bits than alone, $backend"
+done
+works voxelize 'cloth_%04d.bcc' --frames 1-3 --voxels 32 --dry-run -o 'dry_%02d.vdb'
+[ "$(grep -c '^predicted' out.txt)" -eq 4 ] && [ ! -e dry_01.vdb ] || wrong "frames: no sums of a dry run"
+echo broken >cloth_0002.bcc
+rm o_01.vdb
+fails 3 "cloth_0002.bcc: frame 2: byte 0" voxelize 'cloth_%04d.bcc' --frames 1-3 --voxels 32 -o 'o_%02d.vdb' --quiet
+[ -e o_01.vdb ] && [ ! -e o_02.vdb ] || wrong "frames: the one before the broken one was not kept"
+
 works export raster1.vdb --to mitsuba06 -o flakes
 works info flakes/volume.vol
 works voxelize flakes/volume.vol --levels 0 -o flakes.vdb

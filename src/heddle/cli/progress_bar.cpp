@@ -34,6 +34,12 @@ void ProgressBar::begin(std::string_view stage, std::string_view unit, std::int6
     start_ = Clock::now();
 }
 
+void ProgressBar::begin_part(const std::string& name) {
+    finish();
+    part_ = name + "  ";
+    stages_.clear();
+}
+
 void ProgressBar::advance(std::int64_t units) {
     done_.fetch_add(units, std::memory_order_relaxed);
     if (!visible_) return;
@@ -54,8 +60,8 @@ void ProgressBar::draw(double seconds) const {
         bar[static_cast<std::size_t>(i)] = i < part * kWidth ? '#' : '.';
     const double rate = done / seconds;
     const double left = part > 0.0 ? seconds * (1.0 - part) / part : 0.0;
-    std::fprintf(stderr, "\r%-10s [%s] %3.0f %%  %s %s/s  %s left\x1b[K", stage_.c_str(),
-                 bar.data(), part * 100.0, show_count(rate).c_str(), unit_.c_str(),
+    std::fprintf(stderr, "\r%s%-10s [%s] %3.0f %%  %s %s/s  %s left\x1b[K", part_.c_str(),
+                 stage_.c_str(), bar.data(), part * 100.0, show_count(rate).c_str(), unit_.c_str(),
                  part > 0.0 ? show_seconds(left).c_str() : "?");
     std::fflush(stderr);
 }

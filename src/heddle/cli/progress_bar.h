@@ -21,6 +21,9 @@ public:
 
     void begin(std::string_view stage, std::string_view unit, std::int64_t total) override;
     void advance(std::int64_t units) override;
+    /// A part of the work starts ("frame 2 of 24"): its name stands before the stages', and their times are
+    /// counted anew.
+    void begin_part(const std::string& name);
     /// Ends the running stage and wipes the line.
     void finish();
     /// Name and seconds of each ended stage, in order; stages of one name are added up.
@@ -33,6 +36,7 @@ private:
     void draw(double seconds) const;
 
     bool visible_;
+    std::string part_; ///< with a space behind it, or empty
     std::string stage_;
     std::string unit_;
     std::int64_t total_ = 0;

@@ -22,6 +22,19 @@ TEST(ProgressBar, KeepsTheTimeOfEachStageInOrderAndAddsUpRepeatedOnes) {
     EXPECT_EQ(bar.stages()[1].first, "gather");
 }
 
+TEST(ProgressBar, CountsTheStagesOfEachPartAnew) {
+    ProgressBar bar(false);
+    for (const char* part : {"frame 1 of 2", "frame 2 of 2"}) {
+        bar.begin_part(part);
+        EXPECT_TRUE(bar.stages().empty());
+        bar.begin("read", "files", 1);
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    bar.finish();
+    ASSERT_EQ(bar.stages().size(), 1u);
+    EXPECT_GE(bar.stages()[0].second, 0.002);
+}
+
 TEST(ProgressBar, ASignalCancelsTheWork) {
     // never freed: the handler keeps its address
     auto* bar = new ProgressBar(false);

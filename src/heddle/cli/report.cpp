@@ -72,7 +72,16 @@ void Report::table(const std::string& key,
 
 void Report::note(const std::string& sentence) {
     values_["notes"].push_back(sentence);
-    if (!quiet) std::fprintf(stderr, "note: %s\n", sentence.c_str());
+    const bool first = said_->insert(sentence).second;
+    if (!quiet && first) std::fprintf(stderr, "note: %s\n", sentence.c_str());
+}
+
+Report Report::part() const {
+    Report out;
+    out.json = json;
+    out.quiet = quiet;
+    out.said_ = said_;
+    return out;
 }
 
 void Report::print() const {

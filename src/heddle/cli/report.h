@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 #include <cstdint>
+#include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,8 +35,13 @@ public:
     void data(const std::string& key, nlohmann::ordered_json value);
     /// Text that is printed as it is in place of the table; JSON does not hold it.
     void page(const std::string& text) { page_ = text; }
-    /// One sentence that the user should see: on stderr at once, and in the JSON's "notes".
+    /// One sentence that the user should see: on stderr at once, but once, and in the JSON's "notes".
     void note(const std::string& sentence);
+
+    /// An empty report of a part of the work: what one of them said on stderr, the others do not repeat.
+    [[nodiscard]] Report part() const;
+    /// All that JSON holds.
+    [[nodiscard]] const nlohmann::ordered_json& values() const { return values_; }
 
     /// @throws Error  Internal: stdout cannot be written
     void print() const;
@@ -46,6 +53,7 @@ private:
     nlohmann::ordered_json values_ = nlohmann::ordered_json::object();
     std::vector<std::pair<std::string, std::string>> rows_;
     std::string page_;
+    std::shared_ptr<std::set<std::string>> said_ = std::make_shared<std::set<std::string>>();
 };
 
 /// Writes `text` to stdout.

@@ -32,7 +32,7 @@ VoxelizeOptions resolution_from(const Arguments& arguments) {
     return options;
 }
 
-void report_work(Report& report, const VoxelizePlan& plan) {
+std::int64_t report_work(Report& report, const VoxelizePlan& plan) {
     report.count("primitives", plan.primitives, "spans and triangles");
     report.add("steps", "steps", plan.steps,
                str(show_count(plan.steps), " subvoxel edges of fiber length"));
@@ -40,9 +40,11 @@ void report_work(Report& report, const VoxelizePlan& plan) {
     report.count("predicted touched subvoxels", plan.touched_subvoxels);
     std::vector<LevelSize> levels{{plan.leaves, plan.voxels, plan.lobes}};
     levels.insert(levels.end(), plan.levels.begin(), plan.levels.end());
-    report.bytes("predicted file size", predict_vdb_bytes(levels, plan.fields).file);
+    const auto file = static_cast<std::int64_t>(predict_vdb_bytes(levels, plan.fields).file);
+    report.bytes("predicted file size", file);
     report.bytes("predicted peak memory", plan.peak_bytes);
     report.seconds("predicted time", plan.seconds);
+    return file;
 }
 
 } // namespace heddle::cli

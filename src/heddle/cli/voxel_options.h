@@ -16,6 +16,7 @@ namespace heddle::cli {
 [[nodiscard]] VoxelizeOptions resolution_from(const Arguments& arguments);
 
 /// Rows on how much work a plan is: primitives, steps, voxels, predicted bytes and time.
-void report_work(Report& report, const VoxelizePlan& plan);
+/// @return  predicted bytes of the file
+std::int64_t report_work(Report& report, const VoxelizePlan& plan);
 
 } // namespace heddle::cli

@@ -25,17 +25,6 @@ choice(const Arguments& arguments, const char* option, const std::vector<std::st
     return std::find(names.begin(), names.end(), arguments.text(option)) - names.begin();
 }
 
-raster::RasterOptions options_from(const Arguments& arguments) {
-    raster::RasterOptions options;
-    options.composition =
-        static_cast<raster::Composition>(choice(arguments, "composition", composition_names()));
-    options.path = static_cast<raster::RasterPath>(choice(arguments, "raster-path", path_names()));
-    if (arguments.given("slice-spacing")) {
-        options.slice_spacing = arguments.number("slice-spacing");
-    }
-    return options;
-}
-
 void report_counts(Report& report, const raster::RasterCounts& counts) {
     report.text("driver", counts.driver);
     report.text("raster path", path_names()[static_cast<std::size_t>(counts.path)]);
@@ -61,6 +50,17 @@ std::vector<Option> raster_options() {
         {"--raster-path", "PATH", "auto", one_of(path_names()), "",
          "of --backend raster: fragment or compute shaders, to the same voxels; auto: the faster"},
     };
+}
+
+raster::RasterOptions raster_options_from(const Arguments& arguments) {
+    raster::RasterOptions options;
+    options.composition =
+        static_cast<raster::Composition>(choice(arguments, "composition", composition_names()));
+    options.path = static_cast<raster::RasterPath>(choice(arguments, "raster-path", path_names()));
+    if (arguments.given("slice-spacing")) {
+        options.slice_spacing = arguments.number("slice-spacing");
+    }
+    return options;
 }
 
 bool uses_raster(const Arguments& arguments) {
@@ -93,13 +93,13 @@ void prepare_backend(Geometry& geometry, const Arguments& arguments) {
 std::unique_ptr<VoxelSource> voxelize_raster(const Geometry& geometry,
                                              const VoxelizeOptions& options,
                                              const VoxelizePlan& plan,
-                                             const Arguments& arguments,
+                                             raster::SliceVoxelizer& drawer,
                                              Progress& progress,
                                              BlockVisitor* visitor,
                                              Report& report) {
     raster::RasterCounts counts;
-    std::unique_ptr<VoxelSource> grid = raster::voxelize_slices(
-        geometry, options, options_from(arguments), plan, progress, visitor, &counts);
+    std::unique_ptr<VoxelSource> grid =
+        drawer.voxelize(geometry, options, plan, progress, visitor, &counts);
     report_counts(report, counts);
     return grid;
 }

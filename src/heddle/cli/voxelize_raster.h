@@ -4,6 +4,7 @@
 #include <heddle/cli/option.h>
 #include <heddle/cli/report.h>
 #include <heddle/geom/geometry.h>
+#include <heddle/raster/voxelize_slices.h>
 #include <heddle/voxel/voxelize.h>
 
 #include <memory>
@@ -21,12 +22,15 @@ namespace heddle::cli {
 /// @throws UsageError  rows that the backend has no use for
 void prepare_backend(Geometry& geometry, const Arguments& arguments);
 
+/// What those rows say of how slices are drawn.
+[[nodiscard]] raster::RasterOptions raster_options_from(const Arguments& arguments);
+
 /// Voxelizes by OpenGL, and reports what was drawn.
-/// @throws Error  as voxelize_slices
+/// @throws Error  as SliceVoxelizer
 [[nodiscard]] std::unique_ptr<VoxelSource> voxelize_raster(const Geometry& geometry,
                                                            const VoxelizeOptions& options,
                                                            const VoxelizePlan& plan,
-                                                           const Arguments& arguments,
+                                                           raster::SliceVoxelizer& drawer,
                                                            Progress& progress,
                                                            BlockVisitor* visitor,
                                                            Report& report);

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <heddle/cli/option.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace heddle::cli {
+
+/// One file of a sequence.
+struct Frame {
+    std::int64_t number = 0;
+    std::string input, output;
+};
+
+/// The row that asks for a sequence: --frames.
+[[nodiscard]] std::vector<Option> frame_options();
+
+/// The numbers of "A-B" or "A-B:STEP".
+/// @throws UsageError  it is neither, or holds more than a million
+[[nodiscard]] std::vector<std::int64_t> parse_frames(const std::string& text);
+
+/// `pattern` with `number` in place of its one %0Nd, which is N digits or more.
+/// @param option  that gave the pattern, for the message
+/// @throws UsageError  none, more than one, or another %
+[[nodiscard]] std::string
+frame_path(const std::string& pattern, std::int64_t number, const std::string& option);
+
+/// The files that --frames, FILE and --output name.
+/// @throws UsageError  as above
+[[nodiscard]] std::vector<Frame> frames_from(const Arguments& arguments);
+
+} // namespace heddle::cli
