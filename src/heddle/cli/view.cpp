@@ -39,12 +39,46 @@ const std::vector<std::string>& voxel_colors() {
     return names;
 }
 
-/// Place of `name` in `names`; none: what shows it is not what is shown.
+/// Place of `name` in `names`, which has it.
 template <typename Color>
-Color color_of(const std::vector<std::string>& names, const std::string& name, const char* what) {
-    const auto at = std::find(names.begin(), names.end(), name);
-    if (at != names.end()) return static_cast<Color>(at - names.begin());
-    throw UsageError(str("--color ", name, " is not one of ", what, "; see heddle view --help"));
+Color color_of(const std::vector<std::string>& names, const std::string& name) {
+    return static_cast<Color>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+bool is_volume_file(const Arguments& arguments) {
+    return std::filesystem::path(arguments.text("FILE")).extension() == ".vdb";
+}
+
+bool shows_voxels(const Arguments& arguments) {
+    return is_volume_file(arguments) || arguments.text("show") == "voxels";
+}
+
+/// What does not go together, before anything is read.
+/// @throws UsageError
+void check_usage(const Arguments& arguments) {
+    const bool headless = arguments.given("headless");
+    const bool volume = is_volume_file(arguments) || arguments.given("volume");
+    const std::string color = arguments.text("color");
+    if (headless && !arguments.given("output")) {
+        throw UsageError("--headless needs a folder for its pictures: -o DIR");
+    }
+    for (const char* option : {"frames", "scene"}) {
+        if (headless || !arguments.given(option)) continue;
+        throw UsageError(str("--", option, " is of no use here: it needs --headless"));
+    }
+    if (arguments.given("volume") && is_volume_file(arguments)) {
+        throw UsageError("--volume is of no use here: it needs curves to be shown with");
+    }
+    if (!volume && (arguments.given("scene") || shows_voxels(arguments) || color == "grid")) {
+        throw UsageError("no voxels are there to be shown: open a .vdb, or give --volume X.vdb");
+    }
+    const std::vector<std::string>& colors =
+        shows_voxels(arguments) ? voxel_colors() : slice_colors();
+    if (std::find(colors.begin(), colors.end(), color) == colors.end()) {
+        throw UsageError(str("--color ", color, " is none of ",
+                             shows_voxels(arguments) ? "voxels" : "slices",
+                             "; see heddle view --help"));
+    }
 }
 
 viewer::SliceLook slice_look(const Arguments& arguments) {
@@ -200,18 +234,12 @@ window::Subject subject_of(const Arguments& arguments, Report& report) {
     out.seed = static_cast<std::uint64_t>(arguments.integer("seed"));
     if (arguments.given("memory")) out.memory_bytes = arguments.bytes("memory");
     std::string volume = arguments.given("volume") ? arguments.text("volume") : "";
-    if (file.extension() != ".vdb")
-        load_curves(out, arguments, report);
-    else if (volume.empty())
+    if (is_volume_file(arguments)) {
         volume = file.string();
-    else
-        throw UsageError("--volume is of no use here: it needs curves to be shown with");
-    if (!volume.empty()) out.levels = std::make_shared<VoxelLevels>(read_levels(volume));
-    const bool wants_voxels =
-        arguments.text("color") == "grid" || arguments.text("show") == "voxels";
-    if (wants_voxels && !out.levels && arguments.given("headless")) {
-        throw UsageError("no voxels are there to be shown: give them by --volume X.vdb");
+    } else {
+        load_curves(out, arguments, report);
     }
+    if (!volume.empty()) out.levels = std::make_shared<VoxelLevels>(read_levels(volume));
     return out;
 }
 
@@ -223,36 +251,22 @@ window::Settings settings_of(const Arguments& arguments, const window::Subject& 
     out.framed = true;
     out.slices = slice_look(arguments);
     out.volume = voxel_look(arguments);
-    const bool voxels = !subject.geometry || arguments.text("show") == "voxels";
-    out.show = voxels ? window::Show::Voxels : window::Show::Slices;
+    out.show = shows_voxels(arguments) ? window::Show::Voxels : window::Show::Slices;
     const std::string color = arguments.text("color");
-    if (voxels) {
-        out.volume.color = color_of<viewer::VoxelColor>(voxel_colors(), color, "voxels' colors");
-    } else {
-        out.slices.color = color_of<viewer::SliceColor>(slice_colors(), color, "slices' colors");
-    }
+    if (shows_voxels(arguments))
+        out.volume.color = color_of<viewer::VoxelColor>(voxel_colors(), color);
+    else
+        out.slices.color = color_of<viewer::SliceColor>(slice_colors(), color);
     return out;
 }
 
 void run_view(const Arguments& arguments, Report& report, ProgressBar& bar) {
-    const bool headless = arguments.given("headless");
-    if (headless && !arguments.given("output")) {
-        throw UsageError("--headless needs a folder for its pictures: -o DIR");
-    }
-    for (const char* option : {"frames", "scene"}) {
-        if (headless || !arguments.given(option)) continue;
-        throw UsageError(str("--", option, " is of no use here: it needs --headless"));
-    }
+    check_usage(arguments);
     bar.begin("read", "files", 1);
-    const bool volume = arguments.given("volume") ||
-                        std::filesystem::path(arguments.text("FILE")).extension() == ".vdb";
-    if (arguments.given("scene") && !volume) {
-        throw UsageError("--scene needs a volume: open a .vdb, or give --volume X.vdb");
-    }
     const window::Subject subject = subject_of(arguments, report);
     make_folder(subject.folder);
     const window::Settings settings = settings_of(arguments, subject);
-    if (headless)
+    if (arguments.given("headless"))
         draw_frames(subject, settings, arguments, report, bar);
     else
         open_window(subject, settings, arguments, report, bar);
