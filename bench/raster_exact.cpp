@@ -1,6 +1,6 @@
 // raster_exact: the rasterizing voxelizer against the sampling one on the same slices, as a table.
 #include <heddle/geom/generate.h>
-#include <heddle/raster/test_slices.h>
+#include <heddle/raster/test_difference.h>
 #include <heddle/raster/voxelize_slices.h>
 
 #include <cmath>
@@ -8,6 +8,8 @@
 #include <string>
 
 namespace heddle::raster::test {
+
+using namespace heddle::slice::test;
 namespace {
 
 void print_row(const std::string& name, const Geometry& geometry, double voxel_size) {

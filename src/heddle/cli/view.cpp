@@ -3,13 +3,13 @@
 #include <heddle/cli/load.h>
 #include <heddle/cli/progress_bar.h>
 #include <heddle/cli/report.h>
+#include <heddle/geom/slice_image.h>
 #include <heddle/io/image/image.h>
 #include <heddle/io/output_file.h>
 #include <heddle/io/vdb/read_vdb.h>
-#include <heddle/raster/context.h>
-#include <heddle/raster/voxelize_slices.h>
+#include <heddle/opengl/context.h>
 #include <heddle/viewer/orbit.h>
-#include <heddle/viewer/slice_view.h>
+#include <heddle/viewer/slice/slice_view.h>
 #include <heddle/window/window.h>
 
 #include <algorithm>
@@ -166,7 +166,7 @@ void draw_frames(const window::Subject& subject,
                  ProgressBar& bar) {
     const std::vector<double> size = arguments.numbers("size", 'x');
     bar.begin("place slices", "files", 1);
-    const raster::Context context;
+    const opengl::Context context;
     window::Session session(context, subject, settings, static_cast<std::int32_t>(size[0]),
                             static_cast<std::int32_t>(size[1]));
     const std::int64_t frames = arguments.integer("frames");
@@ -219,7 +219,7 @@ void open_window(const window::Subject& subject,
 void load_curves(window::Subject& subject, const Arguments& arguments, Report& report) {
     Geometry geometry = load_geometry(arguments.text("FILE"), arguments);
     apply_model(geometry, arguments);
-    for (std::string& note : raster::make_slices_of_yarns(geometry, subject.seed)) {
+    for (std::string& note : make_slices_of_yarns(geometry, subject.seed)) {
         geometry.notes.push_back(std::move(note));
     }
     for (const std::string& note : geometry.notes) report.note(note);

@@ -1,5 +1,6 @@
 #include <heddle/base/error.h>
 #include <heddle/cli/voxelize_raster.h>
+#include <heddle/geom/slice_image.h>
 #include <heddle/raster/voxelize_slices.h>
 
 #include <algorithm>
@@ -84,8 +85,8 @@ void prepare_backend(Geometry& geometry, const Arguments& arguments) {
     if (arguments.text("fit") == "last") {
         throw UsageError("--fit last is of no use here: it needs --backend sample");
     }
-    for (std::string& note : raster::make_slices_of_yarns(
-             geometry, static_cast<std::uint64_t>(arguments.integer("seed")))) {
+    for (std::string& note :
+         make_slices_of_yarns(geometry, static_cast<std::uint64_t>(arguments.integer("seed")))) {
         geometry.notes.push_back(std::move(note));
     }
 }

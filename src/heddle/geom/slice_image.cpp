@@ -176,6 +176,17 @@ SliceImage make_slice(const YarnType& yarn, const SliceOptions& options) {
     return out;
 }
 
+std::vector<std::string> make_slices_of_yarns(Geometry& geometry, std::uint64_t seed) {
+    std::vector<std::string> notes;
+    for (YarnType& yarn : geometry.yarns) {
+        if (yarn.model != YarnModel::Procedural) continue;
+        SliceImage made = make_slice(yarn, {.size = 256, .seed = seed});
+        notes.insert(notes.end(), made.notes.begin(), made.notes.end());
+        yarn = std::move(made.yarn);
+    }
+    return notes;
+}
+
 Texture bake_occlusion(const YarnType& yarn) {
     require_slice(yarn);
     const Texture& image = yarn.slice;

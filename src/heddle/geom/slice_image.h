@@ -1,6 +1,6 @@
 #pragma once
 
-#include <heddle/geom/yarn.h>
+#include <heddle/geom/geometry.h>
 
 #include <cstdint>
 #include <string>
@@ -26,6 +26,11 @@ struct SliceImage {
 /// 2 model radii. It twists as the plies do, or the fibers of a single ply.  [LopezMoreno17, 3.2]
 /// @throws Error  InvalidArgument: a size out of range; a yarn that is a slice or solid already
 [[nodiscard]] SliceImage make_slice(const YarnType& yarn, const SliceOptions& options = {});
+
+/// Makes each procedural yarn of a geometry a slice of 256 texels: what OpenGL draws.
+/// @param seed  of the fibers' places
+/// @return      notes on what the slices do not have
+[[nodiscard]] std::vector<std::string> make_slices_of_yarns(Geometry& geometry, std::uint64_t seed);
 
 /// How much of the light from around reaches each texel within the section's plane: the mean over
 /// directions of exp(-integral of alpha 2 / (pi fiber_radius)), the projected area of fibers per

@@ -5,9 +5,8 @@
 namespace heddle::raster {
 
 /// GLSL: the lattice, and which bricks of 8 x 8 x 8 voxels the stretch between two slices may touch.
-/// Voxels and bricks are counted from the origin. Bindings 0 and 1.
+/// Voxels and bricks are counted from the origin. Needs kSpanGlsl.
 inline constexpr std::string_view kBrickGlsl = R"(
-layout(std430, binding = 0) readonly buffer Slices { Slice slices[]; };
 uniform ivec3 voxel_lo;    // [lo, hi)
 uniform ivec3 voxel_hi;
 uniform ivec3 brick_lo;
@@ -19,13 +18,6 @@ uint brick_number(ivec3 brick) {
     ivec3 b = brick - brick_lo;
     return (uint(b.x) * uint(brick_count.y) + uint(b.y)) * uint(brick_count.z) + uint(b.z);
 }
-
-// Half the length of the stretch from slice a to b, with what its sections reach past it in a bend.
-float half_length(Slice a, Slice b, float reach) {
-    return 0.5 * length(b.center - a.center) + reach * length(b.tangent - a.tangent);
-}
-
-float reach_of(Slice a, Slice b) { return a.extent * max(a.scale, b.scale); }
 
 struct BrickBox { ivec3 lo, hi; vec3 middle; float radius; }; // bricks [lo, hi]
 

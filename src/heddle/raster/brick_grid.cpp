@@ -3,7 +3,7 @@
 #include <heddle/base/error.h>
 #include <heddle/base/trig.h>
 #include <heddle/raster/brick_glsl.h>
-#include <heddle/raster/slice_glsl.h>
+#include <heddle/slice/slice_glsl.h>
 #include <heddle/voxel/z_order.h>
 
 #include <algorithm>
@@ -63,7 +63,7 @@ std::uint64_t BrickGrid::number(Vec3i brick) const {
            static_cast<std::uint64_t>(b.z);
 }
 
-void BrickGrid::set_uniforms(const Program& program) const {
+void BrickGrid::set_uniforms(const opengl::Program& program) const {
     program.set("voxel_lo", voxel_lo);
     program.set("voxel_hi", voxel_hi);
     program.set("brick_lo", lo);
@@ -72,21 +72,22 @@ void BrickGrid::set_uniforms(const Program& program) const {
     program.set("subvoxels", units.n);
 }
 
-Program make_mark_program() {
-    const std::string shared = std::string(kSliceGlsl) + std::string(kBrickGlsl);
-    return Program::compute("mark bricks", shared, kMarkGlsl);
+opengl::Program make_mark_program() {
+    const std::string shared =
+        std::string(slice::kSliceGlsl) + std::string(slice::kSpanGlsl) + std::string(kBrickGlsl);
+    return opengl::Program::compute("mark bricks", shared, kMarkGlsl);
 }
 
-std::vector<TouchedBlock> find_blocks(const Context& context,
-                                      const Program& mark,
+std::vector<TouchedBlock> find_blocks(const opengl::Context& context,
+                                      const opengl::Program& mark,
                                       const BrickGrid& grid,
-                                      std::span<const SliceChunk> chunks) {
+                                      std::span<const slice::SliceChunk> chunks) {
     std::vector<std::uint32_t> marks((grid.size() + 31) / 32);
-    const Buffer buffer("occupied bricks", marks.size() * sizeof(std::uint32_t));
+    const opengl::Buffer buffer("occupied bricks", marks.size() * sizeof(std::uint32_t));
     buffer.clear();
     grid.set_uniforms(mark);
     buffer.bind_storage(1);
-    for (const SliceChunk& chunk : chunks) {
+    for (const slice::SliceChunk& chunk : chunks) {
         chunk.slices.bind_storage(0);
         mark.set("slice_count", chunk.count);
         mark.dispatch(chunk.count);

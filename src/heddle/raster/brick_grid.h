@@ -1,9 +1,9 @@
 #pragma once
 
 #include <heddle/base/vec.h>
-#include <heddle/raster/buffer.h>
-#include <heddle/raster/shader.h>
-#include <heddle/raster/slices.h>
+#include <heddle/opengl/buffer.h>
+#include <heddle/opengl/shader.h>
+#include <heddle/slice/slices.h>
 #include <heddle/voxel/lattice_units.h>
 
 #include <cstdint>
@@ -29,7 +29,7 @@ struct BrickGrid {
     [[nodiscard]] Vec3i brick(std::uint64_t number) const; ///< index, from the origin
     [[nodiscard]] std::uint64_t number(Vec3i brick) const;
     /// Sets what kBrickGlsl reads.
-    void set_uniforms(const Program& program) const;
+    void set_uniforms(const opengl::Program& program) const;
 };
 
 /// A block and its touched bricks.
@@ -39,13 +39,13 @@ struct TouchedBlock {
 };
 
 /// The program that finds blocks.
-[[nodiscard]] Program make_mark_program();
+[[nodiscard]] opengl::Program make_mark_program();
 
 /// The blocks that slices may touch, in Z-order, found by the driver.
 /// @param mark  of make_mark_program()
-[[nodiscard]] std::vector<TouchedBlock> find_blocks(const Context& context,
-                                                    const Program& mark,
+[[nodiscard]] std::vector<TouchedBlock> find_blocks(const opengl::Context& context,
+                                                    const opengl::Program& mark,
                                                     const BrickGrid& grid,
-                                                    std::span<const SliceChunk> chunks);
+                                                    std::span<const slice::SliceChunk> chunks);
 
 } // namespace heddle::raster

@@ -14,15 +14,16 @@ constexpr std::size_t kBrickBytes = kBrickWords * sizeof(std::uint32_t);
 constexpr std::size_t kBlockBricks = 64; ///< most that one block has
 constexpr std::size_t kTriedBlocks = 16; ///< on which paths are timed
 
-std::vector<std::uint32_t> materials_of(std::span<const SliceChunk> chunks) {
+std::vector<std::uint32_t> materials_of(std::span<const slice::SliceChunk> chunks) {
     std::vector<std::uint32_t> out;
-    for (const SliceChunk& c : chunks) out.push_back(c.material);
+    for (const slice::SliceChunk& c : chunks) out.push_back(c.material);
     std::sort(out.begin(), out.end());
     out.erase(std::unique(out.begin(), out.end()), out.end());
     return out;
 }
 
-std::size_t capacity_of(const Context& context, const DrawOptions& options, std::size_t materials) {
+std::size_t
+capacity_of(const opengl::Context& context, const DrawOptions& options, std::size_t materials) {
     const std::int64_t most =
         std::min<std::int64_t>(context.limits().storage_bytes, options.memory_bytes) /
         static_cast<std::int64_t>(std::max<std::size_t>(materials, 1));
@@ -30,15 +31,15 @@ std::size_t capacity_of(const Context& context, const DrawOptions& options, std:
     return std::min(fit, static_cast<std::size_t>(options.bricks));
 }
 
-std::uint32_t most_slices(std::span<const SliceChunk> chunks) {
+std::uint32_t most_slices(std::span<const slice::SliceChunk> chunks) {
     std::uint32_t most = 0;
-    for (const SliceChunk& c : chunks) most = std::max(most, c.count);
+    for (const slice::SliceChunk& c : chunks) most = std::max(most, c.count);
     return most;
 }
 
-void check_last(std::span<const SliceChunk> chunks, Composition composition) {
+void check_last(std::span<const slice::SliceChunk> chunks, Composition composition) {
     std::uint64_t total = 0;
-    for (const SliceChunk& c : chunks) total += c.count;
+    for (const slice::SliceChunk& c : chunks) total += c.count;
     if (composition != Composition::Last || total <= (std::uint64_t{1} << 23)) return;
     throw Error(ErrorCode::Unsupported,
                 str("raster: ", total, " slices are too many to tell which was last (limit 2^23)"),
@@ -47,11 +48,11 @@ void check_last(std::span<const SliceChunk> chunks, Composition composition) {
 
 } // namespace
 
-BrickDrawer::BrickDrawer(const Context& context,
+BrickDrawer::BrickDrawer(const opengl::Context& context,
                          SlabKit& kit,
                          const BrickGrid& grid,
-                         const SectionTextures& textures,
-                         std::span<const SliceChunk> chunks,
+                         const slice::SectionTextures& textures,
+                         std::span<const slice::SliceChunk> chunks,
                          const DrawOptions& options)
     : context_(context),
       kit_(kit),
@@ -113,17 +114,17 @@ void BrickDrawer::set_slots(std::span<const TouchedBlock> blocks, const DrawnBat
     slot_buffer_.write(std::as_bytes(std::span(slots_)));
 }
 
-void BrickDrawer::list_slices(const SliceChunk& chunk) {
+void BrickDrawer::list_slices(const slice::SliceChunk& chunk) {
     constexpr std::array<std::uint32_t, 7> kNone{4, 0, 0, 0, 0, 0, 1}; // as kListGlsl has it
     command_.write(std::as_bytes(std::span(kNone)));
     list_.bind_storage(2);
     command_.bind_storage(3);
     kit_.list().set("slice_count", chunk.count);
     kit_.list().dispatch(chunk.count);
-    finish_writes();
+    opengl::finish_writes();
 }
 
-void BrickDrawer::draw_chunk(const SliceChunk& chunk, const SlabView& view) {
+void BrickDrawer::draw_chunk(const slice::SliceChunk& chunk, const SlabView& view) {
     chunk.slices.bind_storage(0);
     slot_buffer_.bind_storage(1);
     list_slices(chunk);
@@ -134,7 +135,7 @@ void BrickDrawer::draw_chunk(const SliceChunk& chunk, const SlabView& view) {
 }
 
 void BrickDrawer::draw_material(std::uint32_t material, const SlabView& view) {
-    for (const SliceChunk& chunk : chunks_) {
+    for (const slice::SliceChunk& chunk : chunks_) {
         if (chunk.material == material) draw_chunk(chunk, view);
     }
 }
@@ -172,7 +173,7 @@ DrawnBatch BrickDrawer::draw_batch(std::span<const TouchedBlock> blocks, std::si
         for (std::int32_t pick = 0; pick < picks; ++pick) {
             pass_->program().set("pick", pick);
             draw_material(material, view);
-            finish_writes();
+            opengl::finish_writes();
         }
         DrawnMaterial drawn{.form = {.subvoxels = grid_.units.n,
                                      .composition = kit_.composition(),

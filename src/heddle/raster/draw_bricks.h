@@ -3,7 +3,7 @@
 #include <heddle/raster/brick_grid.h>
 #include <heddle/raster/brick_words.h>
 #include <heddle/raster/slab_pass.h>
-#include <heddle/raster/texture.h>
+#include <heddle/slice/section_textures.h>
 
 #include <cstdint>
 #include <span>
@@ -38,11 +38,11 @@ struct DrawOptions {
 class BrickDrawer {
 public:
     /// @throws Error  OutOfMemory; Unsupported: `Last` with more than 2^23 slices
-    BrickDrawer(const Context& context,
+    BrickDrawer(const opengl::Context& context,
                 SlabKit& kit,
                 const BrickGrid& grid,
-                const SectionTextures& textures,
-                std::span<const SliceChunk> chunks,
+                const slice::SectionTextures& textures,
+                std::span<const slice::SliceChunk> chunks,
                 const DrawOptions& options);
 
     /// Draws as many blocks from `begin` on as memory and the driver's largest view take, one at least.
@@ -56,23 +56,23 @@ private:
     [[nodiscard]] RasterPath try_paths(std::span<const TouchedBlock> blocks, std::size_t begin);
     [[nodiscard]] DrawnBatch draw_batch(std::span<const TouchedBlock> blocks, std::size_t begin);
     void draw_material(std::uint32_t material, const SlabView& view);
-    void draw_chunk(const SliceChunk& chunk, const SlabView& view);
-    void list_slices(const SliceChunk& chunk);
+    void draw_chunk(const slice::SliceChunk& chunk, const SlabView& view);
+    void list_slices(const slice::SliceChunk& chunk);
 
-    const Context& context_;
+    const opengl::Context& context_;
     SlabKit& kit_;
     const BrickGrid& grid_;
-    std::span<const SliceChunk> chunks_;
+    std::span<const slice::SliceChunk> chunks_;
     DrawOptions options_;
     std::size_t capacity_; ///< bricks of a batch
     std::vector<std::uint32_t> materials_;
-    const SectionTextures& textures_;
+    const slice::SectionTextures& textures_;
     const SlabPass* pass_ = nullptr;
     std::vector<std::uint32_t> slots_; ///< by brick: slot + 1, or 0
-    Buffer slot_buffer_;
-    const Buffer& pool_;
-    Buffer list_;
-    Buffer command_;
+    opengl::Buffer slot_buffer_;
+    const opengl::Buffer& pool_;
+    opengl::Buffer list_;
+    opengl::Buffer command_;
 };
 
 } // namespace heddle::raster

@@ -1,6 +1,6 @@
 #include <heddle/geom/generate.h>
 #include <heddle/raster/draw_bricks.h>
-#include <heddle/raster/test_slices.h>
+#include <heddle/raster/test_difference.h>
 #include <heddle/raster/voxelize_slices.h>
 
 #include <gtest/gtest.h>
@@ -11,6 +11,7 @@ namespace heddle::raster {
 namespace {
 
 using namespace heddle::raster::test;
+using namespace heddle::slice::test;
 
 constexpr Composition kCompositions[] = {Composition::Last, Composition::Average, Composition::Max,
                                          Composition::Accumulate};
@@ -99,13 +100,14 @@ TEST(RasterPath, WhereNoneIsChosenBothAreTriedAndTheDrawnSumsAreTheirs) {
     const VoxelizePlan plan = plan_voxelize(yarn, options_of(0.03));
     const LatticeUnits units(plan.lattice);
     const BrickGrid grid(units, {}, plan.voxel_lo, plan.voxel_hi);
-    const SectionLayers sections = build_sections(yarn, 0);
-    const Context context;
-    const std::vector<SliceChunk> chunks = place_slices(context, yarn, sections, units, {});
+    const slice::SectionLayers sections = slice::build_sections(yarn, 0);
+    const opengl::Context context;
+    const std::vector<slice::SliceChunk> chunks =
+        slice::place_slices(context, yarn, sections, units, {});
     const std::vector<TouchedBlock> blocks =
         find_blocks(context, make_mark_program(), grid, chunks);
     SlabKit kit(context, RasterPath::Fragment, Composition::Accumulate);
-    const SectionTextures textures(sections);
+    const slice::SectionTextures textures(sections);
     BrickDrawer drawer(context, kit, grid, textures, chunks,
                        {.weight_bits = 8, .memory_bytes = 1 << 26, .bricks = 1 << 20});
     const DrawnBatch fragment = drawer.draw(blocks, 0);

@@ -4,8 +4,8 @@
 #include <heddle/raster/brick_glsl.h>
 #include <heddle/raster/column_glsl.h>
 #include <heddle/raster/compose_glsl.h>
-#include <heddle/raster/slab_glsl.h>
-#include <heddle/raster/slice_glsl.h>
+#include <heddle/slice/slab_glsl.h>
+#include <heddle/slice/slice_glsl.h>
 
 #include <cstddef>
 #include <initializer_list>
@@ -23,22 +23,24 @@ std::string join(std::initializer_list<std::string_view> parts) {
     return out;
 }
 
-Program make_program(RasterPath path, Composition composition) {
+opengl::Program make_program(RasterPath path, Composition composition) {
     const std::string_view body =
         composition == Composition::Accumulate ? kAccumulateGlsl : kComposeGlsl;
     if (path == RasterPath::Compute) {
-        return Program::compute(
+        return opengl::Program::compute(
             "walk slices",
-            join({kSlabsInComputeGlsl, kSliceGlsl, kBrickGlsl, kSlabLanesGlsl, kStretchGlsl}),
-            join({kSlabGlsl, kRectangleGlsl, kColumnGlsl, body, kSlabLoopGlsl}));
+            join({slice::kSlabsInComputeGlsl, slice::kSliceGlsl, slice::kSpanGlsl, kBrickGlsl,
+                  kSlabLanesGlsl, slice::kStretchGlsl}),
+            join({slice::kSlabGlsl, kRectangleGlsl, kColumnGlsl, body, kSlabLoopGlsl}));
     }
-    return Program::draw("draw slices", join({kSliceGlsl, kBrickGlsl}),
-                         join({kStretchGlsl, kRectangleGlsl, kQuadGlsl}),
-                         join({kSlabGlsl, kRectangleGlsl, kColumnGlsl, body, kFragmentGlsl}));
+    return opengl::Program::draw(
+        "draw slices", join({slice::kSliceGlsl, slice::kSpanGlsl, kBrickGlsl}),
+        join({slice::kStretchGlsl, kRectangleGlsl, kQuadGlsl}),
+        join({slice::kSlabGlsl, kRectangleGlsl, kColumnGlsl, body, kFragmentGlsl}));
 }
 
 /// On llvmpipe compute takes 4 % (yarn) to 20 % (hair) less time: bench/results/raster_tables.md.
-RasterPath resolve(RasterPath asked, const Context& context) {
+RasterPath resolve(RasterPath asked, const opengl::Context& context) {
     if (asked == RasterPath::Auto && context.is_software()) return RasterPath::Compute;
     return asked;
 }
@@ -50,7 +52,7 @@ SlabPass::SlabPass(RasterPath path, Composition composition)
     program_.set("policy", static_cast<std::int32_t>(composition));
 }
 
-void SlabPass::draw(const Buffer& command, const SlabView& view) const {
+void SlabPass::draw(const opengl::Buffer& command, const SlabView& view) const {
     program_.use();
     program_.set("view_lo", view.lo);
     program_.set("view_size", view.size);
@@ -63,15 +65,17 @@ void SlabPass::draw(const Buffer& command, const SlabView& view) const {
             continue;
         }
         frame_.bind(axis == 0 ? view.size.y : view.size.x, axis == 2 ? view.size.y : view.size.z);
-        EmptyFrame::draw_indirect();
+        opengl::EmptyFrame::draw_indirect();
     }
 }
 
-SlabKit::SlabKit(const Context& context, RasterPath path, Composition composition)
+SlabKit::SlabKit(const opengl::Context& context, RasterPath path, Composition composition)
     : composition_(composition),
       path_(resolve(path, context)),
-      list_(Program::compute(
-          "list slices", join({kSliceGlsl, kBrickGlsl, kSlabLanesGlsl}), kListGlsl)) {}
+      list_(opengl::Program::compute(
+          "list slices",
+          join({slice::kSliceGlsl, slice::kSpanGlsl, kBrickGlsl, kSlabLanesGlsl}),
+          kListGlsl)) {}
 
 const SlabPass& SlabKit::pass(RasterPath path) {
     std::optional<SlabPass>& pass = path == RasterPath::Compute ? compute_ : fragment_;
@@ -79,7 +83,7 @@ const SlabPass& SlabKit::pass(RasterPath path) {
     return *pass;
 }
 
-const Buffer& SlabKit::pool(std::size_t bytes) {
+const opengl::Buffer& SlabKit::pool(std::size_t bytes) {
     if (!pool_ || pool_->byte_count() != bytes) {
         pool_.reset(); // there may not be room for both
         pool_.emplace("sums of bricks", bytes);

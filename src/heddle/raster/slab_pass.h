@@ -1,8 +1,9 @@
 #pragma once
 
+#include <heddle/opengl/empty_frame.h>
 #include <heddle/raster/brick_grid.h>
-#include <heddle/raster/texture.h>
 #include <heddle/raster/voxelize_slices.h>
+#include <heddle/slice/section_textures.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -24,15 +25,15 @@ public:
     SlabPass(RasterPath path, Composition composition);
 
     /// To set what all draws have in common.
-    [[nodiscard]] const Program& program() const { return program_; }
+    [[nodiscard]] const opengl::Program& program() const { return program_; }
     /// Slices are bound as storage 0, slots 1, the list 2, the pool 3. Waits for nothing.
     /// @param command  as kListGlsl writes it
-    void draw(const Buffer& command, const SlabView& view) const;
+    void draw(const opengl::Buffer& command, const SlabView& view) const;
 
 private:
     RasterPath path_;
-    Program program_;
-    EmptyFrame frame_;
+    opengl::Program program_;
+    opengl::EmptyFrame frame_;
 };
 
 /// What slabs are drawn with, kept from one geometry to the next: programs, each made when it is first
@@ -40,24 +41,24 @@ private:
 class SlabKit {
 public:
     /// @param path  Auto: what is faster on a software driver; on another it is left open
-    SlabKit(const Context& context, RasterPath path, Composition composition);
+    SlabKit(const opengl::Context& context, RasterPath path, Composition composition);
 
     [[nodiscard]] Composition composition() const { return composition_; }
-    [[nodiscard]] const Program& list() const { return list_; }
+    [[nodiscard]] const opengl::Program& list() const { return list_; }
     [[nodiscard]] const SlabPass& pass(RasterPath path);
     /// Fragment or Compute; Auto until one is chosen.
     [[nodiscard]] RasterPath path() const { return path_; }
     void choose(RasterPath path) { path_ = path; }
     /// Memory for sums; what it held is lost where the last call asked for another size.
     /// @throws Error  OutOfMemory
-    [[nodiscard]] const Buffer& pool(std::size_t bytes);
+    [[nodiscard]] const opengl::Buffer& pool(std::size_t bytes);
 
 private:
     Composition composition_;
     RasterPath path_;
-    Program list_;
+    opengl::Program list_;
     std::optional<SlabPass> fragment_, compute_;
-    std::optional<Buffer> pool_;
+    std::optional<opengl::Buffer> pool_;
 };
 
 } // namespace heddle::raster

@@ -3,7 +3,6 @@
 #include <heddle/base/error.h>
 #include <heddle/base/lender.h>
 #include <heddle/base/parallel.h>
-#include <heddle/geom/slice_image.h>
 #include <heddle/raster/brick_grid.h>
 #include <heddle/raster/brick_words.h>
 #include <heddle/raster/draw_bricks.h>
@@ -43,7 +42,9 @@ Vec3i origin_of(const Geometry& geometry, const LatticeUnits& units) {
 }
 
 /// Bits of a weight so that three passes over a full voxel, eight times over, stay below 2^31.
-int weight_bits(const LatticeUnits& units, std::span<const SliceChunk> chunks, float thinnest) {
+int weight_bits(const LatticeUnits& units,
+                std::span<const slice::SliceChunk> chunks,
+                float thinnest) {
     if (chunks.empty()) return 0;
     const double volume = static_cast<double>(units.voxel.x) * static_cast<double>(units.voxel.y) *
                           static_cast<double>(units.voxel.z);
@@ -53,7 +54,7 @@ int weight_bits(const LatticeUnits& units, std::span<const SliceChunk> chunks, f
 
 /// Radius of the thinnest fiber, units.
 float thinnest_fiber(const Geometry& geometry,
-                     const SectionLayers& sections,
+                     const slice::SectionLayers& sections,
                      const LatticeUnits& units) {
     float least = 1e30f;
     for (std::size_t s = 0; s < geometry.curves.size(); ++s) {
@@ -122,9 +123,10 @@ struct BlockFitter {
     }
 };
 
-RasterCounts count(std::span<const SliceChunk> chunks, std::span<const TouchedBlock> blocks) {
+RasterCounts count(std::span<const slice::SliceChunk> chunks,
+                   std::span<const TouchedBlock> blocks) {
     RasterCounts out;
-    for (const SliceChunk& c : chunks) out.slices += c.count;
+    for (const slice::SliceChunk& c : chunks) out.slices += c.count;
     for (const TouchedBlock& b : blocks) out.bricks += static_cast<std::int64_t>(b.bricks.size());
     return out;
 }
@@ -157,29 +159,18 @@ std::int64_t memory_of(const VoxelizeOptions& options) {
 
 } // namespace
 
-std::vector<std::string> make_slices_of_yarns(Geometry& geometry, std::uint64_t seed) {
-    std::vector<std::string> notes;
-    for (YarnType& yarn : geometry.yarns) {
-        if (yarn.model != YarnModel::Procedural) continue;
-        SliceImage made = make_slice(yarn, {.size = 256, .seed = seed});
-        notes.insert(notes.end(), made.notes.begin(), made.notes.end());
-        yarn = std::move(made.yarn);
-    }
-    return notes;
-}
-
 struct SliceVoxelizer::Kept {
-    Context driver;
-    PlacePrograms place;
-    Program mark = make_mark_program();
+    opengl::Context driver;
+    slice::PlacePrograms place;
+    opengl::Program mark = make_mark_program();
     SlabKit kit;
-    SectionLayers sections;
-    std::optional<SectionTextures> textures;
+    slice::SectionLayers sections;
+    std::optional<slice::SectionTextures> textures;
 
     explicit Kept(const RasterOptions& raster) : kit(driver, raster.path, raster.composition) {}
 
     void update(const Geometry& geometry, std::uint64_t seed) {
-        if (update_sections(sections, geometry, seed)) textures.emplace(sections);
+        if (slice::update_sections(sections, geometry, seed)) textures.emplace(sections);
     }
 };
 
@@ -198,14 +189,14 @@ std::unique_ptr<VoxelSource> SliceVoxelizer::voxelize(const Geometry& geometry,
     const BrickGrid grid(context.units, origin_of(geometry, context.units), plan.voxel_lo,
                          plan.voxel_hi);
     if (!kept_) kept_ = std::make_unique<Kept>(raster_);
-    const Context& driver = kept_->driver;
+    const opengl::Context& driver = kept_->driver;
     kept_->update(geometry, options.seed);
-    const SectionLayers& sections = kept_->sections;
-    const std::vector<SliceChunk> chunks =
-        place_slices(driver, geometry, sections, context.units,
-                     {.origin = grid.origin,
-                      .spacing = raster_.slice_spacing / context.units.unit,
-                      .programs = &kept_->place});
+    const slice::SectionLayers& sections = kept_->sections;
+    const std::vector<slice::SliceChunk> chunks =
+        slice::place_slices(driver, geometry, sections, context.units,
+                            {.origin = grid.origin,
+                             .spacing = raster_.slice_spacing / context.units.unit,
+                             .programs = &kept_->place});
     const std::vector<TouchedBlock> blocks = find_blocks(driver, kept_->mark, grid, chunks);
     const int bits =
         weight_bits(context.units, chunks, thinnest_fiber(geometry, sections, context.units));

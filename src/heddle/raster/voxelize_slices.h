@@ -44,11 +44,6 @@ struct RasterCounts {
     double fit_seconds = 0.0;           ///< sums to voxels, and levels
 };
 
-/// Makes procedural yarns slices, which is what this voxelizer draws.
-/// @param seed  of the fibers' places
-/// @return  notes on what the slices do not have
-[[nodiscard]] std::vector<std::string> make_slices_of_yarns(Geometry& geometry, std::uint64_t seed);
-
 /// Voxelizes yarns and hair by OpenGL, one geometry after another: the driver's context, its programs,
 /// the memory of sums and, where the kinds of yarns stay the same, their sections are kept. To be used
 /// on one thread, and no other Context with it.

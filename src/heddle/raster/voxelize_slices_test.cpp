@@ -4,7 +4,7 @@
 #include <heddle/geom/generate.h>
 #include <heddle/raster/brick_grid.h>
 #include <heddle/raster/brick_words.h>
-#include <heddle/raster/test_slices.h>
+#include <heddle/raster/test_difference.h>
 
 #include <gtest/gtest.h>
 
@@ -17,6 +17,7 @@ namespace heddle::raster {
 namespace {
 
 using namespace heddle::raster::test;
+using namespace heddle::slice::test;
 using heddle::test::for_each_voxel;
 
 VoxelizeOptions options_of(double voxel_size) {

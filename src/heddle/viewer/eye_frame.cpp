@@ -28,7 +28,7 @@ EyeFrame::EyeFrame(const Ball& ball, Vec3d light, std::int32_t size, double unit
       width(size),
       height(size) {}
 
-void EyeFrame::set_uniforms(const raster::Program& program) const {
+void EyeFrame::set_uniforms(const opengl::Program& program) const {
     program.set("screen", Vec3f{static_cast<float>(width), static_cast<float>(height),
                                 static_cast<float>(pixel)});
     program.set("parallel", parallel ? 1 : 0);

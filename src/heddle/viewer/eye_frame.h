@@ -1,6 +1,6 @@
 #pragma once
 
-#include <heddle/raster/shader.h>
+#include <heddle/opengl/shader.h>
 #include <heddle/render/camera.h>
 #include <heddle/viewer/orbit.h>
 
@@ -27,7 +27,7 @@ struct EyeFrame {
     [[nodiscard]] Vec3f seen(Vec3d place) const { return to_float(axes.of(place - eye)); }
     bool operator==(const EyeFrame&) const = default;
     /// Sets what kEyeGlsl reads.
-    void set_uniforms(const raster::Program& program) const;
+    void set_uniforms(const opengl::Program& program) const;
 };
 
 } // namespace heddle::viewer

@@ -33,7 +33,7 @@ void main() {
 
 } // namespace
 
-Presenter::Presenter() : program_(raster::Program::draw("show", "", kWholeGlsl, kShowGlsl)) {
+Presenter::Presenter() : program_(opengl::Program::draw("show", "", kWholeGlsl, kShowGlsl)) {
     glCreateVertexArrays(1, &vertices_);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <heddle/raster/shader.h>
+#include <heddle/opengl/shader.h>
 #include <heddle/window/refiner.h>
 
 #include <cstdint>
@@ -19,7 +19,7 @@ public:
 
 private:
     std::uint32_t vertices_ = 0;
-    raster::Program program_;
+    opengl::Program program_;
 };
 
 } // namespace heddle::window

@@ -1,7 +1,7 @@
 #include <heddle/window/refiner.h>
 
 #include <heddle/base/error.h>
-#include <heddle/raster/context.h>
+#include <heddle/opengl/context.h>
 
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ void fill(const viewer::ViewTarget& target, float red) {
 }
 
 TEST(Refiner, DrawsCoarseThenAllRowsInBands) {
-    const raster::Context context;
+    const opengl::Context context;
     Refiner refiner(100, 64);
     std::vector<bool> coarse;
     const auto draw = [&](const viewer::ViewTarget& target, bool is_coarse) {
@@ -46,7 +46,7 @@ TEST(Refiner, DrawsCoarseThenAllRowsInBands) {
 }
 
 TEST(Refiner, ASlowPictureBecomesCoarserUntilItIsInTime) {
-    const raster::Context context;
+    const opengl::Context context;
     Refiner refiner(640, 640);
     const auto draw = [&](const viewer::ViewTarget& target, bool) {
         const double seconds = 4e-6 * target.width() * target.height(); // 1.6 s for all
@@ -61,7 +61,7 @@ TEST(Refiner, ASlowPictureBecomesCoarserUntilItIsInTime) {
 }
 
 TEST(Refiner, BeginsAgainAfterAFailure) {
-    const raster::Context context;
+    const opengl::Context context;
     Refiner refiner(32, 32);
     const auto fails = [](const viewer::ViewTarget&, bool) { throw std::runtime_error("x"); };
     (void)refiner.work(1.0, [](const viewer::ViewTarget& target, bool) { fill(target, 1.0f); });

@@ -4,7 +4,7 @@
 #include <heddle/io/image/image.h>
 #include <heddle/io/output_file.h>
 #include <heddle/io/vdb/write_vdb.h>
-#include <heddle/viewer/voxel_tables.h>
+#include <heddle/viewer/volume/voxel_tables.h>
 #include <heddle/window/save_scene.h>
 #include <heddle/window/voxelize_seen.h>
 
@@ -47,7 +47,7 @@ Bounds bounds_of(const Subject& subject) {
     return out;
 }
 
-Session::Session(const raster::Context& context,
+Session::Session(const opengl::Context& context,
                  Subject subject,
                  const Settings& settings,
                  std::int32_t width,

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <heddle/raster/context.h>
-#include <heddle/viewer/slice_view.h>
-#include <heddle/viewer/voxel_view.h>
+#include <heddle/opengl/context.h>
+#include <heddle/viewer/slice/slice_view.h>
+#include <heddle/viewer/volume/voxel_view.h>
 #include <heddle/voxel/voxel_grid.h>
 #include <heddle/window/job.h>
 #include <heddle/window/refiner.h>
@@ -35,7 +35,7 @@ class Session {
 public:
     /// @param context  lives as long
     /// @throws Error   as SliceView and VoxelView
-    Session(const raster::Context& context,
+    Session(const opengl::Context& context,
             Subject subject,
             const Settings& settings,
             std::int32_t width,
@@ -105,7 +105,7 @@ private:
     [[nodiscard]] double aspect() const;
     [[nodiscard]] std::string place_of(const char* suffix) const;
 
-    const raster::Context& context_;
+    const opengl::Context& context_;
     Subject subject_;
     Settings settings_;
     std::vector<std::string> kinds_;

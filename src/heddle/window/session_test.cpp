@@ -1,7 +1,7 @@
 #include <heddle/window/session.h>
 
 #include <heddle/io/vdb/read_vdb.h>
-#include <heddle/raster/context.h>
+#include <heddle/opengl/context.h>
 #include <heddle/voxel/test_voxelize.h>
 
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ protected:
         return sum / static_cast<double>(kSize * kSize);
     }
 
-    raster::Context context_;
+    opengl::Context context_;
     std::filesystem::path folder_;
     Subject subject_;
     Settings settings_;

@@ -2,8 +2,8 @@
 
 #include <heddle/raster/voxelize_slices.h>
 #include <heddle/viewer/orbit.h>
-#include <heddle/viewer/slice_view.h>
-#include <heddle/viewer/voxel_view.h>
+#include <heddle/viewer/slice/slice_view.h>
+#include <heddle/viewer/volume/voxel_view.h>
 #include <heddle/window/yarn_edit.h>
 
 #include <string>

@@ -266,7 +266,7 @@ void Run::frame(GLFWwindow* window,
 
 void Run::once() {
     const OpenWindow window(options, subject.name + " - heddle");
-    const std::unique_ptr<raster::Context> context = raster::Context::of_window();
+    const std::unique_ptr<opengl::Context> context = opengl::Context::of_window();
     counts.driver = context->driver();
     ++counts.contexts;
     Session session(*context, subject, settings, options.width, options.height);
@@ -279,7 +279,7 @@ void Run::once() {
         frame(window.get(), session, controls, panel, presenter);
         context->check("view");
         if (++frames == options.lose_after)
-            raster::check_status(GL_GUILTY_CONTEXT_RESET, 0, "view");
+            opengl::check_status(GL_GUILTY_CONTEXT_RESET, 0, "view");
     }
 }
 
@@ -295,7 +295,7 @@ WindowCounts run_window(const Subject& subject,
         try {
             run.once();
             break;
-        } catch (const raster::LostContext&) {
+        } catch (const opengl::LostContext&) {
             if (loss == kMostLosses) throw;
         }
     }

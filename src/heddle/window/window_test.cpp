@@ -1,6 +1,6 @@
 #include <heddle/window/window.h>
 
-#include <heddle/raster/context.h>
+#include <heddle/opengl/context.h>
 #include <heddle/voxel/test_voxelize.h>
 
 #include <gtest/gtest.h>

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace heddle::opengl {
+
+/// Bytes in the driver's memory that shaders read and write. Needs a current Context while it lives.
+class Buffer {
+public:
+    /// @param name  what it holds, for messages
+    /// @throws Error  OutOfMemory
+    Buffer(const char* name, std::size_t bytes);
+    template <typename T>
+    Buffer(const char* name, std::span<const T> values) : Buffer(name, std::as_bytes(values)) {}
+    Buffer(const char* name, std::span<const std::byte> bytes);
+    ~Buffer();
+    Buffer(Buffer&& other) noexcept : id_(other.id_), bytes_(other.bytes_) { other.id_ = 0; }
+    Buffer& operator=(Buffer&& other) noexcept;
+    Buffer(const Buffer&) = delete;
+    Buffer& operator=(const Buffer&) = delete;
+
+    /// As shader storage block `binding`.
+    void bind_storage(std::uint32_t binding) const;
+    /// As uniform block `binding`.
+    void bind_uniform(std::uint32_t binding) const;
+    /// As source of indirect draws and dispatches.
+    void bind_indirect() const;
+    /// Sets all its words of 32 bits.
+    void clear(std::uint32_t word = 0) const;
+    void write(std::span<const std::byte> bytes, std::size_t offset = 0) const;
+    /// Waits for the shaders before it.
+    void read(std::span<std::byte> out, std::size_t offset = 0) const;
+    [[nodiscard]] std::size_t byte_count() const { return bytes_; }
+
+private:
+    std::uint32_t id_ = 0;
+    std::size_t bytes_ = 0;
+};
+
+} // namespace heddle::opengl

@@ -1,0 +1,65 @@
+#include <heddle/viewer/slice/seen_slices.h>
+
+#include <heddle/slice/slice_glsl.h>
+#include <heddle/viewer/slice/view_glsl.h>
+
+#include <algorithm>
+
+namespace heddle::viewer {
+namespace {
+
+std::uint32_t most_slices(const std::vector<slice::SliceChunk>& chunks) {
+    std::uint32_t most = 0;
+    for (const slice::SliceChunk& c : chunks) most = std::max(most, c.count);
+    return most;
+}
+
+std::uint32_t count_slabs(const slice::SliceChunk& chunk) {
+    const std::vector<slice::PlacedSlice> slices = slice::read_slices(chunk);
+    return static_cast<std::uint32_t>(std::count_if(
+        slices.begin(), slices.end(), [](const slice::PlacedSlice& s) { return s.flags == 0; }));
+}
+
+} // namespace
+
+SeenSlices::SeenSlices(std::vector<slice::SliceChunk> chunks)
+    : chunks_(std::move(chunks)),
+      capacity_(most_slices(chunks_)),
+      sort_(capacity_),
+      seen_("slices in view", capacity_ * sizeof(slice::PlacedSlice)),
+      program_(opengl::Program::compute("see slices", slice::kSliceGlsl, kSeeGlsl)) {
+    for (const slice::SliceChunk& chunk : chunks_) slabs_.push_back(count_slabs(chunk));
+}
+
+std::int64_t SeenSlices::slice_count() const {
+    std::int64_t sum = 0;
+    for (const slice::SliceChunk& c : chunks_) sum += c.count;
+    return sum;
+}
+
+std::uint32_t SeenSlices::see(std::size_t chunk, const EyeFrame& eye, Vec3d middle, bool sorted) {
+    const Last now{chunk, eye, middle, sorted};
+    if (!last_ || !(*last_ == now)) {
+        chunks_[chunk].slices.bind_storage(0);
+        seen_.bind_storage(1);
+        sort_.keys().bind_storage(2);
+        sort_.values().bind_storage(3);
+        program_.set("slice_count", chunks_[chunk].count);
+        program_.set("capacity", capacity_);
+        program_.set("right", to_float(eye.axes.right));
+        program_.set("up", to_float(eye.axes.up));
+        program_.set("away", to_float(eye.axes.away));
+        program_.set("middle", to_float(middle));
+        program_.set("shift", eye.seen(middle));
+        program_.set("parallel", eye.parallel ? 1 : 0);
+        program_.set("sorted", sorted ? 1 : 0);
+        program_.dispatch(capacity_);
+        sort_.sort(); // not sorted: slabs before what is none
+        last_ = now;
+    }
+    seen_.bind_storage(0);
+    sort_.values().bind_storage(2);
+    return slabs_[chunk];
+}
+
+} // namespace heddle::viewer

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <heddle/base/progress.h>
+#include <heddle/geom/bounds.h>
+#include <heddle/opengl/buffer.h>
+#include <heddle/opengl/context.h>
+#include <heddle/viewer/volume/measure_voxels.h>
+#include <heddle/voxel/voxel_grid.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace heddle::viewer {
+
+inline constexpr int kMostVoxelLevels = 24; ///< as many as shaders have room for
+
+/// The levels by pointer, for what takes them from anywhere.
+[[nodiscard]] std::vector<const VoxelSource*> sources_of(const VoxelLevels& levels);
+
+/// All levels of a volume in the driver's memory, each as preview::Scene has one: leaves found by index
+/// in two tables, 12 bytes a voxel. kVoxelTableGlsl reads them. Needs a current Context while it lives.
+class VoxelTables {
+public:
+    /// Bytes are predicted before any are taken. Where they exceed a storage block, the finest levels are
+    /// left out: as few as may be. Reads each block twice, once of a level that is left out.
+    /// @param levels         finest first; edges of voxels double from one to the next, once or more
+    ///                       often; may be empty; not kept
+    /// @param storage_bytes  largest storage block that is planned for; 0: the driver's
+    /// @throws Error  InvalidArgument: edges do not double, over 24 levels; OutOfMemory: not even the
+    ///                coarsest fits; Device: too few storage blocks; Cancelled
+    VoxelTables(const opengl::Context& context,
+                std::span<const VoxelSource* const> levels,
+                std::int64_t storage_bytes,
+                Progress& progress);
+
+    /// As storage blocks 8 to 13 and uniform block 8.
+    void bind() const;
+
+    [[nodiscard]] bool empty() const { return bounds_.empty(); } ///< no voxel in any level
+    [[nodiscard]] int level_count() const { return static_cast<int>(bytes_.size()); }
+    /// The finest level that fits; finer ones are not there.
+    [[nodiscard]] int first_level() const { return first_; }
+    /// By level, those that are left out too.
+    [[nodiscard]] std::span<const VoxelTableBytes> bytes() const { return bytes_; }
+    /// Around the voxels of all levels that fit, and of the finest of them, scene units.
+    [[nodiscard]] const Bounds& bounds() const { return bounds_; }
+    [[nodiscard]] const Bounds& finest_bounds() const { return finest_bounds_; }
+    /// Shaders take places from here, scene units.
+    [[nodiscard]] const Vec3d& middle() const { return middle_; }
+    /// Edges of a block, scene units.
+    [[nodiscard]] Vec3d block_size() const;
+    /// Occupied cells of 32^3 voxels of level 0, even if that is left out: ascending x, then y, then z.
+    [[nodiscard]] std::span<const Vec3i> blocks() const { return blocks_; }
+
+private:
+    struct Level;
+    void plan(std::span<const VoxelSource* const> levels, std::int64_t most, Progress& progress);
+    void fill(std::span<const VoxelSource* const> levels, Progress& progress);
+    void write_levels(std::vector<Level>& levels);
+
+    Vec3d voxel_size_{1.0, 1.0, 1.0}; ///< of level 0
+    Bounds bounds_, finest_bounds_;
+    Vec3d middle_;
+    int first_ = 0;
+    std::vector<VoxelTableBytes> bytes_;
+    std::vector<Vec3i> blocks_;
+    std::vector<opengl::Buffer>
+        buffers_; ///< cells, leaf table, leaves, three words of voxels, levels
+};
+
+} // namespace heddle::viewer

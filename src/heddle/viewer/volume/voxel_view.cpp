@@ -1,0 +1,186 @@
+#include <heddle/viewer/volume/voxel_view.h>
+
+#include <heddle/base/error.h>
+#include <heddle/opengl/shader.h>
+#include <heddle/viewer/eye_frame.h>
+#include <heddle/viewer/volume/block_edges.h>
+#include <heddle/viewer/volume/voxel_glsl.h>
+#include <heddle/viewer/volume/voxel_line_glsl.h>
+#include <heddle/viewer/volume/voxel_table_glsl.h>
+#include <heddle/viewer/volume/voxel_tables.h>
+#include <heddle/viewer/volume/voxel_walk_glsl.h>
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace heddle::viewer {
+namespace {
+
+using opengl::Program;
+
+constexpr std::uint32_t kEdgesStorage = 14;
+
+/// Pixels by ray.
+Program ray_program() {
+    const std::string fragment = std::string(kVoxelEyeGlsl) + std::string(kVoxelWalkGlsl) +
+                                 std::string(kVoxelShadowGlsl) + std::string(kVoxelColorGlsl) +
+                                 std::string(kVoxelMainGlsl);
+    return Program::draw("cast rays at voxels", kVoxelTableGlsl, kAllPixelsGlsl, fragment);
+}
+
+Program line_program() {
+    const std::string shared = std::string(kVoxelTableGlsl) + std::string(kVoxelEyeGlsl);
+    const std::string fragment = std::string(kVoxelWalkGlsl) + std::string(kEdgeLineGlsl);
+    return Program::draw("draw blocks of voxels", shared, kEdgeQuadGlsl, fragment);
+}
+
+void check_look(const VoxelLook& look) {
+    const double light = look.light ? length(*look.light) : 1.0;
+    if (light > 0.0 && std::isfinite(light) && look.density_scale > 0.0 &&
+        std::isfinite(look.density_scale) && std::isfinite(look.level_offset) && look.level >= -1) {
+        return;
+    }
+    throw Error(ErrorCode::InvalidArgument,
+                str("view: level ", look.level, ", an offset of ", look.level_offset,
+                    " levels, a density scale of ", look.density_scale, ", a light of length ",
+                    light),
+                "use a level from -1 on, a finite offset, a scale above 0 and a light of any "
+                "length but 0");
+}
+
+/// How far from the eye all of a box begins; in perspective not behind the eye.
+double distance_to(const Bounds& box, const EyeFrame& eye) {
+    double near = std::numeric_limits<double>::infinity();
+    for (int c = 0; c < 8; ++c) {
+        const Vec3d corner{(c & 1) != 0 ? box.hi.x : box.lo.x, (c & 2) != 0 ? box.hi.y : box.lo.y,
+                           (c & 4) != 0 ? box.hi.z : box.lo.z};
+        near = std::min(near, dot(eye.axes.away, corner - eye.eye));
+    }
+    return eye.parallel ? near : std::max(near, 0.0);
+}
+
+} // namespace
+
+struct VoxelView::Scene {
+    const opengl::Context& context;
+    VoxelTables tables;
+    std::vector<std::array<float, 4>> list; ///< of edges
+    opengl::Buffer edges;
+    Program rays = ray_program();
+    Program lines = line_program();
+
+    Scene(const opengl::Context& on,
+          std::span<const VoxelSource* const> levels,
+          const VoxelViewOptions& options,
+          Progress& progress)
+        : context(on),
+          tables(on, levels, options.storage_bytes, progress),
+          list(edges_of_blocks(tables.blocks(), tables.block_size(), tables.middle())),
+          edges("edges of blocks", std::span<const std::array<float, 4>>(list)) {}
+
+    void set_walk(const Program& program, const EyeFrame& eye, const VoxelLook& look) const;
+    void set_colors(const EyeFrame& eye, const VoxelLook& look) const;
+};
+
+void VoxelView::Scene::set_walk(const Program& program,
+                                const EyeFrame& eye,
+                                const VoxelLook& look) const {
+    const double near = distance_to(tables.bounds(), eye);
+    eye.set_uniforms(program);
+    program.set("right", to_float(eye.axes.right));
+    program.set("up", to_float(eye.axes.up));
+    program.set("away", to_float(eye.axes.away));
+    program.set("start", to_float(eye.eye + eye.axes.away * near - tables.middle()));
+    program.set("near", static_cast<float>(near));
+    program.set("box_lo", to_float(tables.bounds().lo - tables.middle()));
+    program.set("box_hi", to_float(tables.bounds().hi - tables.middle()));
+    const int last = tables.level_count() - 1;
+    const int only = std::clamp(look.level, tables.first_level(), last);
+    program.set("level_first", look.level < 0 ? tables.first_level() : only);
+    program.set("level_last", look.level < 0 ? last : only);
+    program.set("level_reach", static_cast<float>(std::exp2(-look.level_offset)));
+    program.set("density_scale", static_cast<float>(look.density_scale));
+    program.set("white", look.white_block ? 1 : 0);
+    program.set("white_block", look.white_block.value_or(Vec3i{}));
+}
+
+void VoxelView::Scene::set_colors(const EyeFrame& eye, const VoxelLook& look) const {
+    rays.set("color_mode", static_cast<std::int32_t>(look.color));
+    rays.set("eye_light", look.light ? 0 : 1);
+    rays.set("to_eye", to_float(eye.axes.away * -1.0));
+    rays.set("to_light", to_float(normalize(look.light.value_or(eye.axes.away * -1.0))));
+    const bool dark = look.shadows && look.light && look.color == VoxelColor::Shaded;
+    rays.set("shadows", dark ? 1 : 0);
+}
+
+VoxelView::VoxelView(const opengl::Context& context,
+                     std::span<const VoxelSource* const> levels,
+                     const VoxelViewOptions& options,
+                     Progress& progress)
+    : scene_(std::make_unique<Scene>(context, levels, options, progress)) {}
+
+VoxelView::~VoxelView() = default;
+
+void VoxelView::draw(const ViewTarget& target,
+                     const CameraView& camera,
+                     const VoxelLook& look) const {
+    check_look(look);
+    const EyeFrame eye(camera, target.width(), target.height(), 1.0);
+    if (scene_->tables.empty()) return;
+    target.begin();
+    scene_->tables.bind();
+    scene_->set_walk(scene_->rays, eye, look);
+    scene_->set_colors(eye, look);
+    scene_->rays.use();
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    scene_->context.check("cast rays at voxels");
+    if (look.blocks) draw_blocks(target, camera, look);
+}
+
+void VoxelView::draw_blocks(const ViewTarget& target,
+                            const CameraView& camera,
+                            const VoxelLook& look) const {
+    if (scene_->tables.empty()) return;
+    const EyeFrame eye(camera, target.width(), target.height(), 1.0);
+    target.begin();
+    scene_->tables.bind();
+    scene_->set_walk(scene_->lines, eye, look);
+    scene_->lines.set("block_size", to_float(scene_->tables.block_size()));
+    scene_->edges.bind_storage(kEdgesStorage);
+    scene_->lines.use();
+    ViewTarget::draw_quads(static_cast<std::uint32_t>(scene_->list.size()));
+    scene_->context.check("draw blocks");
+}
+
+std::optional<Vec3i> VoxelView::block_at(
+    const CameraView& camera, std::int32_t width, std::int32_t height, double x, double y) const {
+    const EyeFrame eye(camera, width, height, 1.0);
+    const Vec3d aside = eye.axes.right * ((x - 0.5 * width) * eye.pixel) +
+                        eye.axes.up * ((0.5 * height - y) * eye.pixel);
+    const Vec3d from = eye.parallel ? eye.eye + aside : eye.eye;
+    const Vec3d way = eye.parallel ? eye.axes.away : eye.axes.away + aside;
+    const Vec3d size = scene_->tables.block_size();
+    const Vec3d per{1.0 / size.x, 1.0 / size.y, 1.0 / size.z};
+    return first_block(scene_->tables.blocks(), from * per, way * per, eye.parallel);
+}
+
+void VoxelView::bind_tables() const {
+    scene_->tables.bind();
+}
+
+const VoxelTables& VoxelView::tables() const {
+    return scene_->tables;
+}
+
+Ball VoxelView::ball() const {
+    const Bounds& box = scene_->tables.finest_bounds();
+    if (box.empty()) return {};
+    return {(box.lo + box.hi) * 0.5, 0.5 * length(box.size())};
+}
+
+} // namespace heddle::viewer
