@@ -41,6 +41,7 @@ struct SliceLook {
 };
 
 class VoxelView;
+struct SliceScene;
 
 /// Seconds of a picture's stages, each waited for.
 struct SliceTimes {
@@ -84,8 +85,7 @@ public:
     [[nodiscard]] bool is_split() const;
 
 private:
-    struct Scene;
-    std::unique_ptr<Scene> scene_;
+    std::unique_ptr<SliceScene> scene_;
 };
 
 } // namespace heddle::viewer

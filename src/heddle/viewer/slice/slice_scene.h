@@ -1,0 +1,104 @@
+#pragma once
+
+#include <heddle/opengl/buffer.h>
+#include <heddle/opengl/empty_frame.h>
+#include <heddle/opengl/shader.h>
+#include <heddle/slice/section_layers.h>
+#include <heddle/viewer/eye_frame.h>
+#include <heddle/viewer/slice/seen_slices.h>
+#include <heddle/viewer/slice/slice_view.h>
+#include <heddle/viewer/slice/view_sections.h>
+#include <heddle/viewer/slice/weighted_blend.h>
+#include <heddle/voxel/lattice_units.h>
+
+#include <cstdint>
+#include <map>
+#include <optional>
+
+namespace heddle::viewer {
+
+/// Slabs as quads that face the eye.
+struct SlabPrograms {
+    SlabPrograms();
+    opengl::Program nearest; ///< the depth at which half is hidden
+    opengl::Program over;    ///< each over what lies behind it
+    opengl::Program weigh;   ///< for WeightedBlend
+};
+
+/// The same, with colours of voxels.
+struct GridPrograms {
+    GridPrograms();
+    opengl::Program over;
+    opengl::Program weigh;
+};
+
+/// What a SliceView holds on the driver, and how it draws it.
+struct SliceScene {
+    const opengl::Context& context;
+    SliceViewOptions options;
+    Geometry geometry;
+    Ball ball;
+    double pixel = 0.0; ///< that slices were placed for, scene units
+    LatticeUnits units;
+    slice::SectionLayers layers;
+    ViewSections sections;
+    opengl::EmptyFrame frame;
+    std::optional<SeenSlices> slices;
+    SlabPrograms programs;
+    std::optional<GridPrograms> grid_programs; ///< made when they are asked for
+
+    struct ShadowMap {
+        Vec3d light; ///< that it was drawn for
+        double opacity;
+        Ball over; ///< what it covers
+        opengl::Buffer depths;
+    };
+    std::map<std::int32_t, ShadowMap> shadows; ///< by size
+    std::optional<opengl::Buffer> front;       ///< what is nearest to the eye
+    std::optional<WeightedBlend> blend;
+    std::int32_t blend_width = 0, blend_height = 0;
+
+    SliceScene(const opengl::Context& on, Geometry what, const SliceViewOptions& asked)
+        : context(on),
+          options(asked),
+          geometry(std::move(what)),
+          layers(slice::build_sections(geometry, asked.seed)),
+          sections(layers, bake_light(geometry, layers)) {}
+
+    [[nodiscard]] Vec3d middle() const { return ball.middle * (1.0 / units.unit); }
+    void place(double asked_pixel);
+    void
+    set_common(const opengl::Program& program, const EyeFrame& eye, const SliceLook& look) const;
+    void
+    set_light(const opengl::Program& program, const EyeFrame& eye, const SliceLook& look) const;
+    /// Least depth of anything in a map over `part`, units.
+    [[nodiscard]] double shadow_depth(const Ball& part) const {
+        return -(ball.radius + length(part.middle - ball.middle)) / units.unit;
+    }
+    void set_depths(const opengl::Program& program, double shift) const;
+    void draw_nearest(const EyeFrame& eye,
+                      const SliceLook& look,
+                      double shift,
+                      const opengl::Buffer& map);
+    [[nodiscard]] Ball shadowed_part(const CameraView& camera, double aspect) const;
+    void draw_shadows(const SliceLook& look, const Ball& part);
+    void set_grid(const opengl::Program& program,
+                  const EyeFrame& eye,
+                  const SliceLook& look,
+                  const VoxelView& voxels) const;
+    void draw_sorted(const ViewTarget& target,
+                     const opengl::Program& program,
+                     const EyeFrame& eye,
+                     const SliceLook& look,
+                     std::uint32_t slabs);
+    void draw_weighted(const ViewTarget& target,
+                       const opengl::Program& program,
+                       const EyeFrame& eye,
+                       const SliceLook& look);
+    /// The program for a look, all its uniforms of voxels set.
+    /// @param grid  there where the look's colour is Grid
+    [[nodiscard]] const opengl::Program&
+    program_for(const SliceLook& look, bool weighted, const EyeFrame& eye, const VoxelView* grid);
+};
+
+} // namespace heddle::viewer
