@@ -1,6 +1,7 @@
 #include <heddle/window/window.h>
 
 #include <heddle/base/error.h>
+#include <heddle/window/controls.h>
 #include <heddle/window/panel.h>
 #include <heddle/window/presenter.h>
 
@@ -13,15 +14,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <numbers>
 #include <utility>
 #include <vector>
 
 namespace heddle::window {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using Clock = Controls::Clock;
 
 constexpr double kCoarseSeconds = 0.06; ///< of a picture while the view moves
 constexpr double kWait = 0.25;          ///< seconds that an idle window sleeps, at most
@@ -89,116 +88,6 @@ struct ImGuiHalves {
     }
     ImGuiHalves(const ImGuiHalves&) = delete;
     ImGuiHalves& operator=(const ImGuiHalves&) = delete;
-};
-
-/// Mouse and keys, as changes of a session.
-class Controls {
-public:
-    Controls(GLFWwindow* window, Session& session, PanelState& panel)
-        : window_(window), session_(session), panel_(panel) {
-        glfwSetWindowUserPointer(window, this);
-        glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int) {
-            if (action != GLFW_RELEASE) of(w).press(key);
-        });
-        glfwSetScrollCallback(window, [](GLFWwindow* w, double, double y) { of(w).scroll(y); });
-        glfwSetCursorPosCallback(window,
-                                 [](GLFWwindow* w, double x, double y) { of(w).move(x, y); });
-        glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int, int, int) { of(w).touch(); });
-        glfwSetCharCallback(window, [](GLFWwindow* w, unsigned) { of(w).touch(); });
-    }
-
-    /// When the first input came that no picture has shown yet; none: Clock::time_point().
-    [[nodiscard]] Clock::time_point since() const { return since_; }
-    void answered() { since_ = {}; }
-
-private:
-    static Controls& of(GLFWwindow* window) {
-        return *static_cast<Controls*>(glfwGetWindowUserPointer(window));
-    }
-    void touch() {
-        if (since_ == Clock::time_point{}) since_ = Clock::now();
-    }
-    [[nodiscard]] bool down(int button) const {
-        return glfwGetMouseButton(window_, button) == GLFW_PRESS;
-    }
-
-    template <typename Change>
-    void change(Change&& change) {
-        Settings next = session_.settings();
-        change(next);
-        session_.set(next);
-    }
-
-    void scroll(double notches) {
-        touch();
-        if (ImGui::GetIO().WantCaptureMouse) return;
-        change([&](Settings& s) { s.orbit.zoom(std::pow(1.15, notches)); });
-    }
-
-    void move(double x, double y) {
-        const double dx = x - x_;
-        const double dy = y - y_;
-        x_ = x;
-        y_ = y;
-        const bool left = down(GLFW_MOUSE_BUTTON_LEFT);
-        const bool middle = down(GLFW_MOUSE_BUTTON_MIDDLE);
-        const bool right = down(GLFW_MOUSE_BUTTON_RIGHT);
-        if (left || middle || right) touch();
-        if (ImGui::GetIO().WantCaptureMouse || !(left || middle || right)) return;
-        int width = 1;
-        int height = 1;
-        glfwGetWindowSize(window_, &width, &height);
-        const double step = 1.0 / std::max(height, 1);
-        const bool shift = glfwGetKey(window_, GLFW_KEY_LEFT_SHIFT) == GLFW_PRESS;
-        change([&](Settings& s) {
-            if (middle || (left && shift))
-                s.orbit.pan(dx * step, -dy * step);
-            else if (left)
-                s.orbit.turn(dx * step * std::numbers::pi, dy * step * std::numbers::pi);
-            else
-                turn_light(s, dx * step, dy * step);
-        });
-    }
-
-    /// The light goes with the mouse, as the eye would the other way.
-    static void turn_light(Settings& s, double dx, double dy) {
-        viewer::Orbit light{.from = s.slices.light, .up = s.orbit.up};
-        light.turn(-dx * std::numbers::pi, -dy * std::numbers::pi);
-        s.slices.light = light.from;
-    }
-
-    void press(int key) {
-        touch();
-        if (ImGui::GetIO().WantTextInput) return;
-        YarnEdit none;
-        const auto edit = [&](Settings& s) -> YarnEdit& {
-            const auto kind = static_cast<std::size_t>(panel_.kind);
-            return kind < s.yarns.size() ? s.yarns[kind] : none;
-        };
-        switch (key) {
-        case GLFW_KEY_F: session_.frame_all(); break;
-        case GLFW_KEY_V: session_.voxelize(); break;
-        case GLFW_KEY_S: session_.save_picture(); break;
-        case GLFW_KEY_W: session_.save_voxels(); break;
-        case GLFW_KEY_E: session_.save_scene(); break;
-        case GLFW_KEY_B: session_.pick_block(x_, y_); break;
-        case GLFW_KEY_ESCAPE: session_.stop_job(); break;
-        case GLFW_KEY_Q: glfwSetWindowShouldClose(window_, GLFW_TRUE); break;
-        case GLFW_KEY_1: change([](Settings& s) { s.show = Show::Slices; }); break;
-        case GLFW_KEY_2: change([](Settings& s) { s.show = Show::Voxels; }); break;
-        case GLFW_KEY_LEFT_BRACKET: change([&](Settings& s) { edit(s).radius /= 1.1; }); break;
-        case GLFW_KEY_RIGHT_BRACKET: change([&](Settings& s) { edit(s).radius *= 1.1; }); break;
-        case GLFW_KEY_COMMA: change([&](Settings& s) { edit(s).twist -= 0.1; }); break;
-        case GLFW_KEY_PERIOD: change([&](Settings& s) { edit(s).twist += 0.1; }); break;
-        default: break;
-        }
-    }
-
-    GLFWwindow* window_;
-    Session& session_;
-    PanelState& panel_;
-    double x_ = 0.0, y_ = 0.0;
-    Clock::time_point since_{};
 };
 
 /// Times of answers, for the report.
