@@ -40,7 +40,7 @@ void make_folder(const std::string& folder) {
 }
 
 /// The scene stands in the pictures' folder, and names the volume from there.
-void write_scene(const window::Session& session, const Arguments& arguments) {
+void write_scene(const viewer::Session& session, const Arguments& arguments) {
     const std::string volume =
         arguments.given("volume") ? arguments.text("volume") : arguments.text("FILE");
     const std::filesystem::path folder(session.subject().folder);
@@ -53,18 +53,18 @@ void write_scene(const window::Session& session, const Arguments& arguments) {
     });
 }
 
-void draw_frames(const window::Subject& subject,
-                 const window::Settings& settings,
+void draw_frames(const viewer::Subject& subject,
+                 const viewer::Settings& settings,
                  const Arguments& arguments,
                  Report& report,
                  ProgressBar& bar) {
     const std::vector<double> size = arguments.numbers("size", 'x');
     bar.begin("place slices", "files", 1);
     const opengl::Context context;
-    window::Session session(context, subject, settings, static_cast<std::int32_t>(size[0]),
+    viewer::Session session(context, subject, settings, static_cast<std::int32_t>(size[0]),
                             static_cast<std::int32_t>(size[1]));
     const std::int64_t frames = arguments.integer("frames");
-    window::Settings now = session.settings();
+    viewer::Settings now = session.settings();
     viewer::SliceTimes sum;
     bar.begin("draw", "frames", frames);
     for (std::int64_t f = 0; f < frames; ++f) {
@@ -92,8 +92,8 @@ void draw_frames(const window::Subject& subject,
     report.seconds("draw a frame", sum.draw * each);
 }
 
-void open_window(const window::Subject& subject,
-                 const window::Settings& settings,
+void open_window(const viewer::Subject& subject,
+                 const viewer::Settings& settings,
                  const Arguments& arguments,
                  Report& report,
                  ProgressBar& bar) {
@@ -110,7 +110,7 @@ void open_window(const window::Subject& subject,
     report.number("slowest answer", counts.worst_ms, "ms");
 }
 
-void load_curves(window::Subject& subject, const Arguments& arguments, Report& report) {
+void load_curves(viewer::Subject& subject, const Arguments& arguments, Report& report) {
     Geometry geometry = load_geometry(arguments.text("FILE"), arguments);
     apply_model(geometry, arguments);
     for (std::string& note : make_slices_of_yarns(geometry, subject.seed)) {
@@ -120,9 +120,9 @@ void load_curves(window::Subject& subject, const Arguments& arguments, Report& r
     subject.geometry = std::move(geometry);
 }
 
-window::Subject subject_of(const Arguments& arguments, Report& report) {
+viewer::Subject subject_of(const Arguments& arguments, Report& report) {
     const std::filesystem::path file(arguments.text("FILE"));
-    window::Subject out;
+    viewer::Subject out;
     out.name = file.stem().string();
     out.folder = arguments.given("output") ? arguments.text("output") : ".";
     out.seed = static_cast<std::uint64_t>(arguments.integer("seed"));
@@ -140,9 +140,9 @@ window::Subject subject_of(const Arguments& arguments, Report& report) {
 void run_view(const Arguments& arguments, Report& report, ProgressBar& bar) {
     check_view(arguments);
     bar.begin("read", "files", 1);
-    const window::Subject subject = subject_of(arguments, report);
+    const viewer::Subject subject = subject_of(arguments, report);
     make_folder(subject.folder);
-    const window::Settings settings = view_settings(arguments, subject);
+    const viewer::Settings settings = view_settings(arguments, subject);
     if (arguments.given("headless"))
         draw_frames(subject, settings, arguments, report, bar);
     else

@@ -74,10 +74,10 @@ Vec3d up_of(const Arguments& arguments, Vec3d size) {
 }
 
 /// About the unit ball.
-viewer::Orbit orbit_of(const Arguments& arguments, const window::Subject& subject, double aspect) {
+viewer::Orbit orbit_of(const Arguments& arguments, const viewer::Subject& subject, double aspect) {
     constexpr double kDegree = std::numbers::pi / 180.0;
     viewer::Orbit orbit{.from = direction(arguments, "from"),
-                        .up = up_of(arguments, window::bounds_of(subject).size()),
+                        .up = up_of(arguments, viewer::bounds_of(subject).size()),
                         .view_angle = arguments.number("view-angle") * kDegree};
     orbit.frame({.radius = 1.0}, aspect);
     if (arguments.given("target")) orbit.target = direction(arguments, "target");
@@ -117,15 +117,15 @@ void check_view(const Arguments& arguments) {
     }
 }
 
-window::Settings view_settings(const Arguments& arguments, const window::Subject& subject) {
+viewer::Settings view_settings(const Arguments& arguments, const viewer::Subject& subject) {
     const std::vector<double> size = arguments.numbers("size", 'x');
-    window::Settings out;
+    viewer::Settings out;
     out.orbit = orbit_of(arguments, subject, size[0] / size[1]);
     out.target_given = arguments.given("target");
     out.framed = true;
     out.slices = slice_look(arguments);
     out.volume = voxel_look(arguments);
-    out.show = shows_voxels(arguments) ? window::Show::Voxels : window::Show::Slices;
+    out.show = shows_voxels(arguments) ? viewer::Show::Voxels : viewer::Show::Slices;
     const std::string color = arguments.text("color");
     if (shows_voxels(arguments))
         out.volume.color = color_of<viewer::VoxelColor>(voxel_colors(), color);

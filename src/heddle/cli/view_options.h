@@ -1,8 +1,8 @@
 #pragma once
 
 #include <heddle/cli/option.h>
-#include <heddle/window/session.h>
-#include <heddle/window/settings.h>
+#include <heddle/viewer/session/session.h>
+#include <heddle/viewer/session/settings.h>
 
 #include <vector>
 
@@ -19,7 +19,7 @@ namespace heddle::cli {
 void check_view(const Arguments& arguments);
 
 /// What a view begins with; its orbit is about the unit ball (Settings::framed).
-[[nodiscard]] window::Settings view_settings(const Arguments& arguments,
-                                             const window::Subject& subject);
+[[nodiscard]] viewer::Settings view_settings(const Arguments& arguments,
+                                             const viewer::Subject& subject);
 
 } // namespace heddle::cli

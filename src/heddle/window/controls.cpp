@@ -11,7 +11,7 @@ namespace heddle::window {
 namespace {
 
 /// The light goes with the mouse, as the eye would the other way.
-void turn_light(Settings& s, double right, double down) {
+void turn_light(viewer::Settings& s, double right, double down) {
     viewer::Orbit light{.from = s.slices.light, .up = s.orbit.up};
     light.turn(-right * std::numbers::pi, -down * std::numbers::pi);
     s.slices.light = light.from;
@@ -19,7 +19,7 @@ void turn_light(Settings& s, double right, double down) {
 
 } // namespace
 
-Controls::Controls(GLFWwindow* window, Session& session, PanelState& panel)
+Controls::Controls(GLFWwindow* window, viewer::Session& session, PanelState& panel)
     : window_(window), session_(session), panel_(panel) {
     glfwSetWindowUserPointer(window, this);
     glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int) {
@@ -45,14 +45,14 @@ bool Controls::is_down(int button) const {
 
 template <typename Change>
 void Controls::change(Change&& change) {
-    Settings next = session_.settings();
+    viewer::Settings next = session_.settings();
     change(next);
     session_.set(next);
 }
 
 template <typename Change>
 void Controls::edit_yarn(Change&& change) {
-    this->change([&](Settings& s) {
+    this->change([&](viewer::Settings& s) {
         const auto kind = static_cast<std::size_t>(panel_.kind);
         if (kind < s.yarns.size()) change(s.yarns[kind]);
     });
@@ -61,7 +61,7 @@ void Controls::edit_yarn(Change&& change) {
 void Controls::scroll(double notches) {
     touch();
     if (ImGui::GetIO().WantCaptureMouse) return;
-    change([&](Settings& s) { s.orbit.zoom(std::pow(1.15, notches)); });
+    change([&](viewer::Settings& s) { s.orbit.zoom(std::pow(1.15, notches)); });
 }
 
 void Controls::move(double x, double y) {
@@ -84,7 +84,7 @@ void Controls::move(double x, double y) {
 void Controls::drag(double right, double down) {
     const bool shift = glfwGetKey(window_, GLFW_KEY_LEFT_SHIFT) == GLFW_PRESS;
     const bool left = is_down(GLFW_MOUSE_BUTTON_LEFT);
-    change([&](Settings& s) {
+    change([&](viewer::Settings& s) {
         if (is_down(GLFW_MOUSE_BUTTON_MIDDLE) || (left && shift)) {
             s.orbit.pan(right, -down);
         } else if (left) {
@@ -116,12 +116,12 @@ void Controls::press(int key) {
     case GLFW_KEY_B: pick_block(); break;
     case GLFW_KEY_ESCAPE: session_.stop_job(); break;
     case GLFW_KEY_Q: glfwSetWindowShouldClose(window_, GLFW_TRUE); break;
-    case GLFW_KEY_1: change([](Settings& s) { s.show = Show::Slices; }); break;
-    case GLFW_KEY_2: change([](Settings& s) { s.show = Show::Voxels; }); break;
-    case GLFW_KEY_LEFT_BRACKET: edit_yarn([](YarnEdit& e) { e.radius /= 1.1; }); break;
-    case GLFW_KEY_RIGHT_BRACKET: edit_yarn([](YarnEdit& e) { e.radius *= 1.1; }); break;
-    case GLFW_KEY_COMMA: edit_yarn([](YarnEdit& e) { e.twist -= 0.1; }); break;
-    case GLFW_KEY_PERIOD: edit_yarn([](YarnEdit& e) { e.twist += 0.1; }); break;
+    case GLFW_KEY_1: change([](viewer::Settings& s) { s.show = viewer::Show::Slices; }); break;
+    case GLFW_KEY_2: change([](viewer::Settings& s) { s.show = viewer::Show::Voxels; }); break;
+    case GLFW_KEY_LEFT_BRACKET: edit_yarn([](viewer::YarnEdit& e) { e.radius /= 1.1; }); break;
+    case GLFW_KEY_RIGHT_BRACKET: edit_yarn([](viewer::YarnEdit& e) { e.radius *= 1.1; }); break;
+    case GLFW_KEY_COMMA: edit_yarn([](viewer::YarnEdit& e) { e.twist -= 0.1; }); break;
+    case GLFW_KEY_PERIOD: edit_yarn([](viewer::YarnEdit& e) { e.twist += 0.1; }); break;
     default: break;
     }
 }

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <heddle/viewer/session/session.h>
 #include <heddle/window/panel.h>
-#include <heddle/window/session.h>
 
 #include <chrono>
 
@@ -15,7 +15,7 @@ public:
     using Clock = std::chrono::steady_clock;
 
     /// Takes the window's callbacks and its user pointer. All three live as long.
-    Controls(GLFWwindow* window, Session& session, PanelState& panel);
+    Controls(GLFWwindow* window, viewer::Session& session, PanelState& panel);
 
     /// When the first input came that no picture has shown yet; none: Clock::time_point().
     [[nodiscard]] Clock::time_point since() const { return since_; }
@@ -36,7 +36,7 @@ private:
     void edit_yarn(Change&& change);
 
     GLFWwindow* window_;
-    Session& session_;
+    viewer::Session& session_;
     PanelState& panel_;
     double x_ = 0.0, y_ = 0.0; ///< of the mouse, in the window's own units
     Clock::time_point since_{};

@@ -20,7 +20,7 @@ bool choose(const char* label, int& value, const std::array<const char*, N>& nam
     return ImGui::Combo(label, &value, names.data(), static_cast<int>(N));
 }
 
-void yarn_controls(const Session& session, Settings& s, PanelState& state) {
+void yarn_controls(const viewer::Session& session, viewer::Settings& s, PanelState& state) {
     if (!session.has_slices() || !ImGui::CollapsingHeader("Yarn", ImGuiTreeNodeFlags_DefaultOpen)) {
         return;
     }
@@ -34,7 +34,7 @@ void yarn_controls(const Session& session, Settings& s, PanelState& state) {
         }
         ImGui::EndCombo();
     }
-    YarnEdit& edit = s.yarns[at];
+    viewer::YarnEdit& edit = s.yarns[at];
     slide("radius", edit.radius, 0.1, 10.0, "x %.2f", true);
     slide("twist", edit.twist, -6.0, 6.0, "%+.2f rad", false);
     float tint[3] = {edit.tint.x, edit.tint.y, edit.tint.z};
@@ -44,10 +44,10 @@ void yarn_controls(const Session& session, Settings& s, PanelState& state) {
     slide("density", s.slices.opacity, 0.05, 20.0, "x %.2f", true);
 }
 
-void volume_controls(const Session& session, Settings& s) {
+void volume_controls(const viewer::Session& session, viewer::Settings& s) {
     ImGui::SameLine();
     ImGui::Checkbox("blocks", &s.volume.blocks);
-    if (s.show == Show::Slices) return;
+    if (s.show == viewer::Show::Slices) return;
     int color = static_cast<int>(s.volume.color);
     if (choose("color", color,
                std::array{"shaded", "density", "tangent", "width", "material", "block", "level"})) {
@@ -58,14 +58,16 @@ void volume_controls(const Session& session, Settings& s) {
     slide("density##volume", s.volume.density_scale, 0.05, 20.0, "x %.2f", true);
 }
 
-void look_controls(const Session& session, Settings& s) {
+void look_controls(const viewer::Session& session, viewer::Settings& s) {
     if (!ImGui::CollapsingHeader("Look", ImGuiTreeNodeFlags_DefaultOpen)) return;
     if (session.has_slices() && session.has_voxels()) {
         int show = static_cast<int>(s.show);
-        if (choose("show", show, std::array{"slices", "voxels"})) s.show = static_cast<Show>(show);
+        if (choose("show", show, std::array{"slices", "voxels"}))
+            s.show = static_cast<viewer::Show>(show);
     }
-    ImGui::Checkbox("shadows", s.show == Show::Slices ? &s.slices.shadows : &s.volume.shadows);
-    if (s.show == Show::Slices) {
+    ImGui::Checkbox("shadows",
+                    s.show == viewer::Show::Slices ? &s.slices.shadows : &s.volume.shadows);
+    if (s.show == viewer::Show::Slices) {
         ImGui::SameLine();
         ImGui::Checkbox("occlusion", &s.slices.occlusion);
         int color = static_cast<int>(s.slices.color);
@@ -87,7 +89,7 @@ void look_controls(const Session& session, Settings& s) {
     }
 }
 
-void voxel_controls(Session& session, Settings& s) {
+void voxel_controls(viewer::Session& session, viewer::Settings& s) {
     if (!session.has_slices() ||
         !ImGui::CollapsingHeader("Voxels", ImGuiTreeNodeFlags_DefaultOpen)) {
         return;
@@ -101,7 +103,7 @@ void voxel_controls(Session& session, Settings& s) {
         s.voxels.composition = static_cast<raster::Composition>(composition);
     }
     ImGui::Checkbox("only what is seen", &s.voxels.only_seen);
-    if (const Job* job = session.job(); job != nullptr) {
+    if (const viewer::Job* job = session.job(); job != nullptr) {
         ImGui::ProgressBar(static_cast<float>(job->part()), ImVec2(190.0f, 0.0f),
                            job->stage().c_str());
         ImGui::SameLine();
@@ -111,7 +113,7 @@ void voxel_controls(Session& session, Settings& s) {
     }
 }
 
-void save_controls(Session& session) {
+void save_controls(viewer::Session& session) {
     if (!ImGui::CollapsingHeader("Save", ImGuiTreeNodeFlags_DefaultOpen)) return;
     if (ImGui::Button("picture (S)")) session.save_picture();
     if (!session.has_voxels()) return;
@@ -123,12 +125,12 @@ void save_controls(Session& session) {
 
 } // namespace
 
-void draw_panel(Session& session, PanelState& state) {
+void draw_panel(viewer::Session& session, PanelState& state) {
     ImGui::SetNextWindowPos(ImVec2(8.0f, 8.0f), ImGuiCond_Once);
     ImGui::SetNextWindowSize(ImVec2(kWidth, 0.0f), ImGuiCond_Always);
     ImGui::Begin("heddle", nullptr, ImGuiWindowFlags_NoResize);
     ImGui::PushItemWidth(0.62f * kWidth);
-    Settings next = session.settings();
+    viewer::Settings next = session.settings();
     yarn_controls(session, next, state);
     look_controls(session, next);
     voxel_controls(session, next);

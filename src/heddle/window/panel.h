@@ -1,6 +1,6 @@
 #pragma once
 
-#include <heddle/window/session.h>
+#include <heddle/viewer/session/session.h>
 
 namespace heddle::window {
 
@@ -11,6 +11,6 @@ struct PanelState {
 };
 
 /// Draws the controls of a session with Dear ImGui, between its NewFrame and Render, and does what they ask.
-void draw_panel(Session& session, PanelState& state);
+void draw_panel(viewer::Session& session, PanelState& state);
 
 } // namespace heddle::window

@@ -41,7 +41,9 @@ Presenter::~Presenter() {
     glDeleteVertexArrays(1, &vertices_);
 }
 
-void Presenter::show(const Refiner& picture, std::int32_t width, std::int32_t height) const {
+void Presenter::show(const viewer::Refiner& picture,
+                     std::int32_t width,
+                     std::int32_t height) const {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glBindVertexArray(vertices_);
     glViewport(0, 0, width, height);

@@ -105,8 +105,8 @@ struct Answers {
 
 /// One context's life. What it ends with goes on in the next.
 struct Run {
-    Subject subject;
-    Settings settings;
+    viewer::Subject subject;
+    viewer::Settings settings;
     const WindowOptions& options;
     const Progress& progress;
     Answers answers;
@@ -115,14 +115,14 @@ struct Run {
 
     void once();
     void frame(GLFWwindow* window,
-               Session& session,
+               viewer::Session& session,
                Controls& controls,
                PanelState& panel,
                const Presenter& presenter);
 };
 
 void Run::frame(GLFWwindow* window,
-                Session& session,
+                viewer::Session& session,
                 Controls& controls,
                 PanelState& panel,
                 const Presenter& presenter) {
@@ -158,7 +158,7 @@ void Run::once() {
     const std::unique_ptr<opengl::Context> context = opengl::Context::of_window();
     counts.driver = context->driver();
     ++counts.contexts;
-    Session session(*context, subject, settings, options.width, options.height);
+    viewer::Session session(*context, subject, settings, options.width, options.height);
     const Presenter presenter;
     PanelState panel;
     Controls controls(window.get(), session, panel);
@@ -174,8 +174,8 @@ void Run::once() {
 
 } // namespace
 
-WindowCounts run_window(const Subject& subject,
-                        const Settings& settings,
+WindowCounts run_window(const viewer::Subject& subject,
+                        const viewer::Settings& settings,
                         const WindowOptions& options,
                         const Progress& progress) {
     constexpr int kMostLosses = 3;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <heddle/base/progress.h>
-#include <heddle/window/session.h>
+#include <heddle/viewer/session/session.h>
 
 #include <cstdint>
 
@@ -28,8 +28,8 @@ struct WindowCounts {
 /// @param settings  what it begins with
 /// @param progress  closes it once it is cancelled
 /// @throws Error    Device: no display, no OpenGL 4.5; as Session
-[[nodiscard]] WindowCounts run_window(const Subject& subject,
-                                      const Settings& settings,
+[[nodiscard]] WindowCounts run_window(const viewer::Subject& subject,
+                                      const viewer::Settings& settings,
                                       const WindowOptions& options,
                                       const Progress& progress);
 

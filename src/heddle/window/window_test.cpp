@@ -1,7 +1,6 @@
 #include <heddle/window/window.h>
 
-#include <heddle/opengl/context.h>
-#include <heddle/voxel/test_voxelize.h>
+#include <heddle/geom/generate.h>
 
 #include <gtest/gtest.h>
 
@@ -16,13 +15,10 @@ namespace {
 
 TEST(Window, OpensAnewWhereTheContextIsLostAndEndsWhenItIsCancelled) {
     if (std::getenv("DISPLAY") == nullptr) GTEST_SKIP() << "no display";
-    Subject subject;
-    subject.name = "fiber";
-    CurveSet set;
-    heddle::test::add_curve(set, {{-2, 0, 0}, {-1, 0, 0}, {1, 0, 0}, {2, 0, 0}});
-    set.default_radius = 0.2f;
-    subject.geometry = heddle::test::geometry_of(set);
-    Settings settings;
+    viewer::Subject subject;
+    subject.name = "hair";
+    subject.geometry = generate({.kind = GenerateKind::Hair, .nx = 4, .ny = 4});
+    viewer::Settings settings;
     settings.framed = true;
     settings.yarns.resize(1);
     settings.yarns[0].radius = 2.0;

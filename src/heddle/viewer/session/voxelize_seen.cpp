@@ -1,11 +1,11 @@
-#include <heddle/window/voxelize_seen.h>
+#include <heddle/viewer/session/voxelize_seen.h>
 
 #include <heddle/base/error.h>
 #include <heddle/lod/build_levels.h>
 
 #include <utility>
 
-namespace heddle::window {
+namespace heddle::viewer {
 
 JobResult voxelize_seen(const VoxelRequest& request, Progress& progress) {
     LevelBuilder builder({});
@@ -19,4 +19,4 @@ JobResult voxelize_seen(const VoxelRequest& request, Progress& progress) {
     return {str(voxels, " voxels in ", levels->size(), " levels"), std::move(levels)};
 }
 
-} // namespace heddle::window
+} // namespace heddle::viewer

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-namespace heddle::window {
+namespace heddle::viewer {
 
 /// A scene file for `heddle render` that shows a volume as the view does: its camera, and a light of the same
 /// direction and share: three quarters directional, a quarter from everywhere.          [docs/scene.md]
@@ -19,4 +19,4 @@ namespace heddle::window {
                                      std::int32_t width,
                                      std::int32_t height);
 
-} // namespace heddle::window
+} // namespace heddle::viewer

@@ -1,18 +1,18 @@
-#include <heddle/window/session.h>
+#include <heddle/viewer/session/session.h>
 
 #include <heddle/base/error.h>
 #include <heddle/io/image/image.h>
 #include <heddle/io/output_file.h>
 #include <heddle/io/vdb/write_vdb.h>
+#include <heddle/viewer/session/save_scene.h>
+#include <heddle/viewer/session/voxelize_seen.h>
 #include <heddle/viewer/volume/voxel_tables.h>
-#include <heddle/window/save_scene.h>
-#include <heddle/window/voxelize_seen.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <utility>
 
-namespace heddle::window {
+namespace heddle::viewer {
 namespace {
 
 constexpr std::int32_t kCoarseMap = 256; ///< shadow map while the view moves, pixels
@@ -56,9 +56,9 @@ Session::Session(const opengl::Context& context,
     if (subject_.geometry) {
         kinds_ = names_of_kinds(*subject_.geometry);
         settings_.yarns.resize(kinds_.size());
-        slices_ = std::make_unique<viewer::SliceView>(
+        slices_ = std::make_unique<SliceView>(
             context, edited(*subject_.geometry, settings_.yarns),
-            viewer::SliceViewOptions{.memory_bytes = subject_.memory_bytes, .seed = subject_.seed});
+            SliceViewOptions{.memory_bytes = subject_.memory_bytes, .seed = subject_.seed});
     }
     if (subject_.levels) show_voxels();
     if (!slices_) settings_.show = Show::Voxels;
@@ -109,14 +109,14 @@ void Session::set(const Settings& settings) {
     settings_ = next;
 }
 
-void Session::draw(const viewer::ViewTarget& target, bool coarse, viewer::SliceTimes* times) {
+void Session::draw(const ViewTarget& target, bool coarse, SliceTimes* times) {
     const CameraView camera = settings_.orbit.camera();
-    viewer::VoxelLook volume = settings_.volume;
+    VoxelLook volume = settings_.volume;
     if (volume.light) volume.light = settings_.slices.light;
     if (settings_.show == Show::Voxels) {
         voxels_->draw(target, camera, volume);
     } else {
-        viewer::SliceLook look = settings_.slices;
+        SliceLook look = settings_.slices;
         if (coarse) look.map_size = std::min(look.map_size, kCoarseMap);
         if (voxels_) look.white_block = volume.white_block;
         slices_->draw(target, camera, look, voxels_.get(), times);
@@ -135,15 +135,15 @@ bool Session::work(double seconds) {
     const bool fine = attempt([&] {
         if (!picture_->done()) fit_slices();
         drawn = picture_->work(
-            seconds, [&](const viewer::ViewTarget& target, bool coarse) { draw(target, coarse); });
+            seconds, [&](const ViewTarget& target, bool coarse) { draw(target, coarse); });
     });
     write_picture();
     return drawn || !fine;
 }
 
-viewer::ViewImage Session::draw_now(viewer::SliceTimes* times) {
+ViewImage Session::draw_now(SliceTimes* times) {
     fit_slices();
-    const viewer::ViewTarget& target = picture_->fine();
+    const ViewTarget& target = picture_->fine();
     target.clear();
     draw(target, false, times);
     picture_->restart();
@@ -212,8 +212,8 @@ void Session::take_result() {
 
 void Session::show_voxels() {
     Progress silent;
-    voxels_ = std::make_unique<viewer::VoxelView>(context_, viewer::sources_of(*subject_.levels),
-                                                  viewer::VoxelViewOptions{}, silent);
+    voxels_ = std::make_unique<VoxelView>(context_, sources_of(*subject_.levels),
+                                          VoxelViewOptions{}, silent);
     const int first = voxels_->tables().first_level();
     if (first > 0) {
         message_ = str("levels below ", first, " exceed the driver's buffers and are not shown");
@@ -247,7 +247,7 @@ void Session::write_picture() {
     if (!picture_wanted_ || !picture_->done()) return;
     picture_wanted_ = false;
     attempt([&] {
-        const viewer::ViewImage image = picture_->fine().image();
+        const ViewImage image = picture_->fine().image();
         write_png(place_of(".png"), image.width, image.height, 3, image.rgb);
         message_ = "saved " + place_of(".png");
     });
@@ -275,16 +275,16 @@ void Session::save(bool scene) {
     });
 }
 
-viewer::Ball Session::ball() const {
+Ball Session::ball() const {
     if (slices_) return slices_->ball();
-    const viewer::Ball ball = voxels_->ball();
-    return ball.radius > 0.0 ? ball : viewer::Ball{{}, 1.0};
+    const Ball ball = voxels_->ball();
+    return ball.radius > 0.0 ? ball : Ball{{}, 1.0};
 }
 
 /// From the unit ball to what is there.
 void Session::frame_first() {
     const double radius = ball().radius;
-    viewer::Orbit& orbit = settings_.orbit;
+    Orbit& orbit = settings_.orbit;
     if (!settings_.target_given) orbit.target = ball().middle;
     orbit.height *= radius;
     settings_.framed = false;
@@ -305,4 +305,4 @@ std::int64_t Session::slice_count() const {
     return slices_ ? slices_->slice_count() : 0;
 }
 
-} // namespace heddle::window
+} // namespace heddle::viewer

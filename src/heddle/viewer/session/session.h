@@ -1,12 +1,12 @@
 #pragma once
 
 #include <heddle/opengl/context.h>
+#include <heddle/viewer/session/job.h>
+#include <heddle/viewer/session/refiner.h>
+#include <heddle/viewer/session/settings.h>
 #include <heddle/viewer/slice/slice_view.h>
 #include <heddle/viewer/volume/voxel_view.h>
 #include <heddle/voxel/voxel_grid.h>
-#include <heddle/window/job.h>
-#include <heddle/window/refiner.h>
-#include <heddle/window/settings.h>
 
 #include <cstdint>
 #include <functional>
@@ -14,7 +14,7 @@
 #include <optional>
 #include <string>
 
-namespace heddle::window {
+namespace heddle::viewer {
 
 /// What is looked at: yarns and hair, a volume, or both.
 struct Subject {
@@ -57,7 +57,7 @@ public:
     /// The whole picture, drawn at once.
     /// @param times   of slices; may be null
     /// @throws Error  what fails
-    [[nodiscard]] viewer::ViewImage draw_now(viewer::SliceTimes* times = nullptr);
+    [[nodiscard]] ViewImage draw_now(SliceTimes* times = nullptr);
     [[nodiscard]] const Refiner& picture() const { return *picture_; }
     [[nodiscard]] bool busy() const { return job_ != nullptr || !picture_->done(); }
 
@@ -91,9 +91,9 @@ public:
     [[nodiscard]] const std::vector<std::string>& kinds() const { return kinds_; }
 
 private:
-    void draw(const viewer::ViewTarget& target, bool coarse, viewer::SliceTimes* times = nullptr);
+    void draw(const ViewTarget& target, bool coarse, SliceTimes* times = nullptr);
     void fit_slices();
-    [[nodiscard]] viewer::Ball ball() const;
+    [[nodiscard]] Ball ball() const;
     void frame_first();
     void start(std::function<JobResult(Progress&)> run);
     void take_result();
@@ -109,12 +109,12 @@ private:
     Subject subject_;
     Settings settings_;
     std::vector<std::string> kinds_;
-    std::unique_ptr<viewer::SliceView> slices_;
-    std::unique_ptr<viewer::VoxelView> voxels_;
+    std::unique_ptr<SliceView> slices_;
+    std::unique_ptr<VoxelView> voxels_;
     std::unique_ptr<Refiner> picture_;
     std::unique_ptr<Job> job_;
     bool picture_wanted_ = false;
     std::string message_;
 };
 
-} // namespace heddle::window
+} // namespace heddle::viewer

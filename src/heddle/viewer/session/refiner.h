@@ -6,14 +6,14 @@
 #include <functional>
 #include <memory>
 
-namespace heddle::window {
+namespace heddle::viewer {
 
 /// Draws a picture so that input is answered: coarse at once, as coarse as the time for one asks, then
 /// fine in bands of rows. Needs a current context while it lives.
 class Refiner {
 public:
     /// Draws into a target, within its limit; the coarse one has fewer pixels for the same view.
-    using Draw = std::function<void(const viewer::ViewTarget& target, bool coarse)>;
+    using Draw = std::function<void(const ViewTarget& target, bool coarse)>;
 
     /// @param width, height  pixels, 1 to 8192
     /// @throws Error  as ViewTarget
@@ -26,9 +26,9 @@ public:
     /// @throws Error  what `draw` throws; it begins again then
     bool work(double seconds, const Draw& draw);
     [[nodiscard]] bool done() const { return stage_ == Stage::Done; }
-    [[nodiscard]] const viewer::ViewTarget& fine() const { return fine_; }
+    [[nodiscard]] const ViewTarget& fine() const { return fine_; }
     /// Below `rows_done` rows of the fine one hold, from below; above, the coarse one.
-    [[nodiscard]] const viewer::ViewTarget& coarse() const { return coarse_ ? *coarse_ : fine_; }
+    [[nodiscard]] const ViewTarget& coarse() const { return coarse_ ? *coarse_ : fine_; }
     [[nodiscard]] std::int32_t rows_done() const { return rows_; }
 
 private:
@@ -36,12 +36,12 @@ private:
     void draw_coarse(double seconds, const Draw& draw);
     void draw_band(double seconds, const Draw& draw);
 
-    viewer::ViewTarget fine_;
-    std::unique_ptr<viewer::ViewTarget> coarse_;
+    ViewTarget fine_;
+    std::unique_ptr<ViewTarget> coarse_;
     std::int32_t scale_ = 4; ///< fine pixels a coarse one, along an axis
     std::int32_t band_ = 32; ///< rows
     std::int32_t rows_ = 0;
     Stage stage_ = Stage::Coarse;
 };
 
-} // namespace heddle::window
+} // namespace heddle::viewer

@@ -1,11 +1,11 @@
-#include <heddle/window/refiner.h>
+#include <heddle/viewer/session/refiner.h>
 
 #include <epoxy/gl.h>
 
 #include <algorithm>
 #include <chrono>
 
-namespace heddle::window {
+namespace heddle::viewer {
 namespace {
 
 constexpr std::int32_t kMostScale = 16;
@@ -42,7 +42,7 @@ void Refiner::draw_coarse(double seconds, const Draw& draw) {
     const std::int32_t width = (fine_.width() + scale_ - 1) / scale_;
     const std::int32_t height = (fine_.height() + scale_ - 1) / scale_;
     if (!coarse_ || coarse_->width() != width || coarse_->height() != height) {
-        coarse_ = std::make_unique<viewer::ViewTarget>(width, height);
+        coarse_ = std::make_unique<ViewTarget>(width, height);
     }
     const double took = timed([&] {
         coarse_->clear();
@@ -69,4 +69,4 @@ void Refiner::draw_band(double seconds, const Draw& draw) {
     if (took < 0.4 * seconds) band_ = std::min(2 * band_, fine_.height());
 }
 
-} // namespace heddle::window
+} // namespace heddle::viewer

@@ -1,8 +1,8 @@
-#include <heddle/window/save_scene.h>
+#include <heddle/viewer/session/save_scene.h>
 
 #include <gtest/gtest.h>
 
-namespace heddle::window {
+namespace heddle::viewer {
 namespace {
 
 TEST(SaveScene, HasTheViewsCameraAndLight) {
@@ -25,4 +25,4 @@ TEST(SaveScene, ParallelRaysHaveAHeight) {
 }
 
 } // namespace
-} // namespace heddle::window
+} // namespace heddle::viewer

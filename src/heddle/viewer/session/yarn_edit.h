@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace heddle::window {
+namespace heddle::viewer {
 
 /// What the artist changes of a kind of yarn, or of plain fibers.
 struct YarnEdit {
@@ -28,4 +28,4 @@ void multiply_fibers(Geometry& geometry, double factor);
 /// @param aspect  width over height of the picture
 [[nodiscard]] Bounds seen_bounds(const Geometry& geometry, const CameraView& camera, double aspect);
 
-} // namespace heddle::window
+} // namespace heddle::viewer

@@ -1,4 +1,4 @@
-#include <heddle/window/session.h>
+#include <heddle/viewer/session/session.h>
 
 #include <heddle/io/vdb/read_vdb.h>
 #include <heddle/opengl/context.h>
@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <thread>
 
-namespace heddle::window {
+namespace heddle::viewer {
 namespace {
 
 constexpr std::int32_t kSize = 64;
@@ -182,4 +182,4 @@ TEST_F(SessionTest, AJobThatIsStoppedLeavesNothing) {
 }
 
 } // namespace
-} // namespace heddle::window
+} // namespace heddle::viewer

@@ -1,10 +1,10 @@
-#include <heddle/window/save_scene.h>
+#include <heddle/viewer/session/save_scene.h>
 
 #include <iomanip>
 #include <numbers>
 #include <sstream>
 
-namespace heddle::window {
+namespace heddle::viewer {
 namespace {
 
 std::string list(Vec3d v) {
@@ -48,4 +48,4 @@ std::string scene_text(const std::string& volume,
     return out.str();
 }
 
-} // namespace heddle::window
+} // namespace heddle::viewer

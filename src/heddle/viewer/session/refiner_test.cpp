@@ -1,4 +1,4 @@
-#include <heddle/window/refiner.h>
+#include <heddle/viewer/session/refiner.h>
 
 #include <heddle/base/error.h>
 #include <heddle/opengl/context.h>
@@ -11,11 +11,11 @@
 #include <thread>
 #include <vector>
 
-namespace heddle::window {
+namespace heddle::viewer {
 namespace {
 
 /// Fills what may be drawn with one colour.
-void fill(const viewer::ViewTarget& target, float red) {
+void fill(const ViewTarget& target, float red) {
     target.begin();
     glClearColor(red, 0.0f, 0.0f, 1.0f);
     glClear(GL_COLOR_BUFFER_BIT);
@@ -25,7 +25,7 @@ TEST(Refiner, DrawsCoarseThenAllRowsInBands) {
     const opengl::Context context;
     Refiner refiner(100, 64);
     std::vector<bool> coarse;
-    const auto draw = [&](const viewer::ViewTarget& target, bool is_coarse) {
+    const auto draw = [&](const ViewTarget& target, bool is_coarse) {
         coarse.push_back(is_coarse);
         fill(target, is_coarse ? 1.0f : 0.5f);
     };
@@ -48,7 +48,7 @@ TEST(Refiner, DrawsCoarseThenAllRowsInBands) {
 TEST(Refiner, ASlowPictureBecomesCoarserUntilItIsInTime) {
     const opengl::Context context;
     Refiner refiner(640, 640);
-    const auto draw = [&](const viewer::ViewTarget& target, bool) {
+    const auto draw = [&](const ViewTarget& target, bool) {
         const double seconds = 4e-6 * target.width() * target.height(); // 1.6 s for all
         std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
         fill(target, 1.0f);
@@ -63,12 +63,12 @@ TEST(Refiner, ASlowPictureBecomesCoarserUntilItIsInTime) {
 TEST(Refiner, BeginsAgainAfterAFailure) {
     const opengl::Context context;
     Refiner refiner(32, 32);
-    const auto fails = [](const viewer::ViewTarget&, bool) { throw std::runtime_error("x"); };
-    (void)refiner.work(1.0, [](const viewer::ViewTarget& target, bool) { fill(target, 1.0f); });
+    const auto fails = [](const ViewTarget&, bool) { throw std::runtime_error("x"); };
+    (void)refiner.work(1.0, [](const ViewTarget& target, bool) { fill(target, 1.0f); });
     EXPECT_THROW(refiner.work(1.0, fails), std::runtime_error);
     EXPECT_FALSE(refiner.done());
     std::vector<bool> coarse;
-    const auto draw = [&](const viewer::ViewTarget& target, bool is_coarse) {
+    const auto draw = [&](const ViewTarget& target, bool is_coarse) {
         coarse.push_back(is_coarse);
         fill(target, 0.25f);
     };
@@ -79,4 +79,4 @@ TEST(Refiner, BeginsAgainAfterAFailure) {
 }
 
 } // namespace
-} // namespace heddle::window
+} // namespace heddle::viewer

@@ -11,7 +11,7 @@
 #include <string>
 #include <thread>
 
-namespace heddle::window {
+namespace heddle::viewer {
 
 /// What came of a job.
 struct JobResult {
@@ -48,4 +48,4 @@ private:
     std::thread thread_; ///< last: it uses the rest
 };
 
-} // namespace heddle::window
+} // namespace heddle::viewer

@@ -2,10 +2,10 @@
 
 #include <heddle/geom/geometry.h>
 #include <heddle/raster/voxelize_slices.h>
+#include <heddle/viewer/session/job.h>
 #include <heddle/voxel/voxelize.h>
-#include <heddle/window/job.h>
 
-namespace heddle::window {
+namespace heddle::viewer {
 
 /// What is to be voxelized, and how.
 struct VoxelRequest {
@@ -19,4 +19,4 @@ struct VoxelRequest {
 /// @throws Error  as plan_voxelize, voxelize and raster::voxelize_slices
 [[nodiscard]] JobResult voxelize_seen(const VoxelRequest& request, Progress& progress);
 
-} // namespace heddle::window
+} // namespace heddle::viewer

@@ -1,9 +1,9 @@
-#include <heddle/window/job.h>
+#include <heddle/viewer/session/job.h>
 
 #include <exception>
 #include <utility>
 
-namespace heddle::window {
+namespace heddle::viewer {
 
 Job::Job(std::function<JobResult(Progress&)> run)
     : thread_([this, work = std::move(run)] {
@@ -43,4 +43,4 @@ void Job::begin(std::string_view stage, std::string_view, std::int64_t total) {
     total_ = total;
 }
 
-} // namespace heddle::window
+} // namespace heddle::viewer

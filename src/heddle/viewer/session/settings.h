@@ -2,14 +2,14 @@
 
 #include <heddle/raster/voxelize_slices.h>
 #include <heddle/viewer/orbit.h>
+#include <heddle/viewer/session/yarn_edit.h>
 #include <heddle/viewer/slice/slice_view.h>
 #include <heddle/viewer/volume/voxel_view.h>
-#include <heddle/window/yarn_edit.h>
 
 #include <string>
 #include <vector>
 
-namespace heddle::window {
+namespace heddle::viewer {
 
 enum class Show : std::uint8_t { Slices, Voxels };
 
@@ -24,14 +24,14 @@ struct VoxelSettings {
 
 /// All that the artist sets. A picture depends on this, the object and its voxels alone.
 struct Settings {
-    viewer::Orbit orbit;
+    Orbit orbit;
     bool framed = false; ///< the orbit is about the unit ball, and is to be moved to what is there,
     bool target_given = false; ///< but for its target
     Show show = Show::Slices;
-    viewer::SliceLook slices; ///< its light is that of voxels too
-    viewer::VoxelLook volume; ///< of voxels; its blocks and white block are shown over slices too
+    SliceLook slices; ///< its light is that of voxels too
+    VoxelLook volume; ///< of voxels; its blocks and white block are shown over slices too
     std::vector<YarnEdit> yarns;
     VoxelSettings voxels;
 };
 
-} // namespace heddle::window
+} // namespace heddle::viewer

@@ -1,11 +1,11 @@
-#include <heddle/window/yarn_edit.h>
+#include <heddle/viewer/session/yarn_edit.h>
 
 #include <heddle/viewer/orbit.h>
 #include <heddle/voxel/test_voxelize.h>
 
 #include <gtest/gtest.h>
 
-namespace heddle::window {
+namespace heddle::viewer {
 namespace {
 
 /// A yarn along x at z = 0 and a plain fiber along x at z = 5.
@@ -60,8 +60,7 @@ TEST(YarnEdit, DensityIsAsManyFibersMore) {
 
 TEST(YarnEdit, SeenBoundsHoldWhatTheCameraSees) {
     const Geometry from = two_kinds();
-    viewer::Orbit orbit{.from = {0.0, 0.0, 1.0},
-                        .height = 3.0}; // y and, at aspect 1, x in [-1.5, 1.5]
+    Orbit orbit{.from = {0.0, 0.0, 1.0}, .height = 3.0}; // y and, at aspect 1, x in [-1.5, 1.5]
     const Bounds box = seen_bounds(from, orbit.camera(), 1.0);
     EXPECT_NEAR(box.lo.x, -1.3, 1e-6);
     EXPECT_NEAR(box.hi.x, 1.3, 1e-6);
@@ -75,4 +74,4 @@ TEST(YarnEdit, SeenBoundsHoldWhatTheCameraSees) {
 }
 
 } // namespace
-} // namespace heddle::window
+} // namespace heddle::viewer

@@ -1,11 +1,11 @@
-#include <heddle/window/yarn_edit.h>
+#include <heddle/viewer/session/yarn_edit.h>
 
 #include <heddle/viewer/orbit.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace heddle::window {
+namespace heddle::viewer {
 namespace {
 
 std::uint32_t tinted(std::uint32_t color, Vec3f tint) {
@@ -70,7 +70,7 @@ void multiply_fibers(Geometry& geometry, double factor) {
 }
 
 Bounds seen_bounds(const Geometry& geometry, const CameraView& camera, double aspect) {
-    const viewer::PictureAxes axes(camera.eye - camera.target, camera.up);
+    const PictureAxes axes(camera.eye - camera.target, camera.up);
     const double tall =
         camera.orthographic ? 0.5 * camera.view_height : std::tan(0.5 * camera.view_angle);
     Bounds out;
@@ -91,4 +91,4 @@ Bounds seen_bounds(const Geometry& geometry, const CameraView& camera, double as
     return out;
 }
 
-} // namespace heddle::window
+} // namespace heddle::viewer
