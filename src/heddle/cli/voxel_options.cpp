@@ -43,7 +43,7 @@ std::int64_t report_work(Report& report, const VoxelizePlan& plan) {
     const auto file = static_cast<std::int64_t>(predict_vdb_bytes(levels, plan.fields).file);
     report.bytes("predicted file size", file);
     report.bytes("predicted peak memory", plan.peak_bytes);
-    report.seconds("predicted time", plan.seconds);
+    if (plan.seconds > 0.0) report.seconds("predicted time", plan.seconds);
     return file;
 }
 

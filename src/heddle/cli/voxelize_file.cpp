@@ -121,7 +121,11 @@ VoxelizedFile voxelize_file(const Arguments& arguments,
     bar.check();
     bar.begin("plan", "files", 1);
     const std::unique_ptr<LevelBuilder> builder = level_builder(arguments);
-    const VoxelizePlan plan = plan_voxelize(geometry, options, bar, builder.get());
+    VoxelizePlan plan = plan_voxelize(geometry, options, bar, builder.get());
+    if (uses_raster(arguments)) {
+        plan.peak_bytes += drawer.predict_bytes(geometry, options, plan);
+        plan.seconds = 0.0; // it was measured of fibers; of a driver nothing is known
+    }
     bar.finish();
     for (const std::string& note : geometry.notes) report.note(note);
     const std::int64_t predicted = report_plan(report, plan);

@@ -174,6 +174,30 @@ struct SliceVoxelizer::Kept {
     }
 };
 
+SliceVoxelizer::Kept& SliceVoxelizer::open() {
+    if (!kept_) kept_ = std::make_unique<Kept>(raster_);
+    return *kept_;
+}
+
+std::int64_t SliceVoxelizer::predict_bytes(const Geometry& geometry,
+                                           const VoxelizeOptions& options,
+                                           const VoxelizePlan& plan) {
+    constexpr std::int64_t kDriver = std::int64_t{90} << 20; // llvmpipe with its programs, measured
+    constexpr double kTouched = 1.6; // bricks that slabs touch a leaf that has voxels, measured
+    const opengl::Context& driver = open().driver;
+    const auto brick = static_cast<std::int64_t>(kBrickWords * sizeof(std::uint32_t));
+    const auto touched =
+        static_cast<std::int64_t>(kTouched * static_cast<double>(plan.leaves)) + 64;
+    const std::int64_t sums =
+        std::min({touched * brick, driver.limits().storage_bytes, memory_of(options)});
+    if (!driver.is_software()) return sums;
+    const LatticeUnits units(plan.lattice);
+    const std::int64_t slices =
+        slice::estimate_slices(geometry, units, {.spacing = raster_.slice_spacing / units.unit});
+    const auto each = static_cast<std::int64_t>(sizeof(slice::PlacedSlice) + sizeof(std::uint32_t));
+    return kDriver + 2 * sums + slices * each;
+}
+
 SliceVoxelizer::SliceVoxelizer(const RasterOptions& raster) : raster_(raster) {}
 SliceVoxelizer::~SliceVoxelizer() = default;
 
@@ -188,8 +212,7 @@ std::unique_ptr<VoxelSource> SliceVoxelizer::voxelize(const Geometry& geometry,
     VoxelizeContext context(geometry, options, plan.lattice, plan.voxel_lo, plan.voxel_hi);
     const BrickGrid grid(context.units, origin_of(geometry, context.units), plan.voxel_lo,
                          plan.voxel_hi);
-    if (!kept_) kept_ = std::make_unique<Kept>(raster_);
-    const opengl::Context& driver = kept_->driver;
+    const opengl::Context& driver = open().driver;
     kept_->update(geometry, options.seed);
     const slice::SectionLayers& sections = kept_->sections;
     const std::vector<slice::SliceChunk> chunks =

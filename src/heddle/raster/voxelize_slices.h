@@ -68,8 +68,16 @@ public:
                                                         BlockVisitor* visitor = nullptr,
                                                         RasterCounts* counts = nullptr);
 
+    /// What drawing takes beside `plan`, bytes: sums on the driver and read back, slices, and the driver itself.
+    /// All of it where the driver's memory is the host's; else what is read back. Opens the context.
+    /// @throws Error  Device
+    [[nodiscard]] std::int64_t predict_bytes(const Geometry& geometry,
+                                             const VoxelizeOptions& options,
+                                             const VoxelizePlan& plan);
+
 private:
     struct Kept;
+    Kept& open();
     RasterOptions raster_;
     std::unique_ptr<Kept> kept_;
 };

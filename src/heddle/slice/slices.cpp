@@ -166,6 +166,32 @@ PlacePrograms::PlacePrograms()
     : measure(opengl::Program::compute("measure yarns", shared_text(), kCourseGlsl)),
       place(opengl::Program::compute("place slices", shared_text(), kPlaceGlsl)) {}
 
+std::int64_t
+estimate_slices(const Geometry& geometry, const LatticeUnits& units, const PlaceOptions& options) {
+    constexpr double kMostTurn = 0.4; // as kCourseGlsl has it
+    double count = 0.0;
+    for (const CurveSet& set : geometry.curves) {
+        const YarnType* yarn = geometry.yarn_of(set);
+        const float fixed = yarn == nullptr ? 0.0f : yarn->radius;
+        for (std::size_t c = 0; c < set.curve_count(); ++c) {
+            const double radius =
+                static_cast<double>(fixed > 0.0f ? fixed : set.radius_at(set.first[c])) /
+                units.unit;
+            double least = 1.0 / static_cast<double>(spacing_of(radius, options.spacing));
+            if (yarn != nullptr && yarn->model == YarnModel::Slice && radius > 0.0) {
+                const double turn =
+                    std::fabs(static_cast<double>(yarn->twist * yarn->model_radius));
+                least = std::max(least, turn / radius / kMostTurn);
+            }
+            for (std::size_t p = set.first[c]; p + 1 < set.first[c + 1]; ++p) {
+                const double chord = length(to_double(set.points[p + 1] - set.points[p]));
+                count += std::ceil(chord / units.unit * least);
+            }
+        }
+    }
+    return static_cast<std::int64_t>(std::min(count, 1.0e18));
+}
+
 std::vector<SliceChunk> place_slices(const opengl::Context& context,
                                      const Geometry& geometry,
                                      const SectionLayers& sections,
