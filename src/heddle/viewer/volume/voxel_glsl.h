@@ -30,11 +30,10 @@ float lit_at(vec3 place, int level) {
 )";
 
 /// GLSL, fragment: colours of what a voxel hides. `Shaded` follows kShadeGlsl's model of slices; with the
-/// light at the eye, preview.cpp's.                                                   [Kajiya 1989]
+/// light at the eye, preview.cpp's. Constants of the program: `color_mode`, a VoxelColor; `eye_light`, 1:
+/// the light is at the eye; `shadows`, 1 or 0.                                        [Kajiya 1989]
 inline constexpr std::string_view kVoxelColorGlsl = R"(
-uniform int color_mode; // VoxelColor
-uniform int eye_light;  // the light is at the eye
-uniform vec3 to_eye;    // unit, of the picture's middle
+uniform vec3 to_eye; // unit, of the picture's middle
 
 const float kAmbient = 0.25; // as kShadeGlsl
 
@@ -83,6 +82,10 @@ Lit lit_from_light(vec3 color, vec3 axis, float wide, bool fiber) {
                            : 2.0 * along_light * along_eye + dot(to_light, ray.way);
     float facing = mix(fiber ? across_light : abs(along_light), 0.75, wide);
     float shine = 0.12 * (1.0 - wide) * pow(max(0.0, mirrored), 24.0);
+    if (shadows == 1 && !fiber && along_light * along_eye < 0.0) { // seen from its dark side
+        facing *= wide;
+        shine = 0.0;
+    }
     float ambient = kAmbient * mix(0.5, 1.0, fiber ? across_eye : abs(along_eye)); // shapes in shadows
     return Lit(color * ambient, color * (1.0 - kAmbient) * facing + shine);
 }
@@ -127,12 +130,11 @@ vec3 white_cell(int level, ivec3 at, float t) {
 
 /// GLSL, fragment: a pixel's ray through all voxels.
 inline constexpr std::string_view kVoxelMainGlsl = R"(
-uniform int shadows;
 layout(location = 0) out vec4 result; // linear, times alpha
 
 vec3 sum;
-vec3 leaf_direct; // of the leaf that is walked, without shadows
-float leaf_hidden, leaf_t;
+vec3 clump_direct; // of the clump that is walked, without shadows
+float clump_hidden, clump_t;
 
 void meet(int number, int level, ivec3 at, float hidden, float t) {
     if (white == 1 && block_of(level, at) == white_block) {
@@ -141,27 +143,27 @@ void meet(int number, int level, ivec3 at, float hidden, float t) {
     }
     Lit lit = shade(number, level, at);
     sum += hidden * lit.ambient;
-    leaf_direct += hidden * lit.direct;
-    leaf_hidden += hidden;
-    leaf_t += hidden * t;
+    clump_direct += hidden * lit.direct;
+    clump_hidden += hidden;
+    clump_t += hidden * t;
 }
 
-// One ray to the light from the middle of what a leaf hides.
-void leave_leaf(int level) {
+// One ray to the light from the middle of what a clump hides.
+void leave_clump(int level) {
     float lit = 1.0;
-    if (shadows == 1 && leaf_hidden > 0.01) lit = lit_at(ray.from + leaf_t / leaf_hidden * ray.way, level);
-    sum += lit * leaf_direct;
-    leaf_direct = vec3(0.0);
-    leaf_hidden = 0.0;
-    leaf_t = 0.0;
+    if (shadows == 1 && clump_hidden > 0.01) lit = lit_at(ray.from + clump_t / clump_hidden * ray.way, level);
+    sum += lit * clump_direct;
+    clump_direct = vec3(0.0);
+    clump_hidden = 0.0;
+    clump_t = 0.0;
 }
 
 void main() {
     ray = voxel_ray(gl_FragCoord.xy);
     sum = vec3(0.0);
-    leaf_direct = vec3(0.0);
-    leaf_hidden = 0.0;
-    leaf_t = 0.0;
+    clump_direct = vec3(0.0);
+    clump_hidden = 0.0;
+    clump_t = 0.0;
     walk_ray(kNever);
     if (through == 1.0) discard;
     result = vec4(sum, 1.0 - through);

@@ -50,7 +50,7 @@ const vec3 kColor = vec3(0.75, 0.03, 0.03);
 const float kDim = 0.2; // of a hidden line
 
 void meet(int number, int level, ivec3 at, float hidden, float t) {}
-void leave_leaf(int level) {}
+void leave_clump(int level) {}
 
 // Where on its ray a pixel comes closest to the edge.
 float place_on_ray() {

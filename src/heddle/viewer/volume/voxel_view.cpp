@@ -16,6 +16,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <string>
 
 namespace heddle::viewer {
@@ -25,19 +26,52 @@ using opengl::Program;
 
 constexpr std::uint32_t kEdgesStorage = 14;
 
+bool casts_shadows(const VoxelLook& look) {
+    return look.shadows && look.light && look.color == VoxelColor::Shaded;
+}
+
+// What of a look programs are made for: a branch on it costs a software driver a third of its time.
+
+std::string white_constant(const VoxelLook& look) {
+    return str("const int white = ", look.white_block ? 1 : 0, ";\n");
+}
+
+std::string color_constants(const VoxelLook& look) {
+    return str("const int color_mode = ", static_cast<int>(look.color),
+               ";\nconst int eye_light = ", look.light ? 0 : 1,
+               ";\nconst int shadows = ", casts_shadows(look) ? 1 : 0, ";\n");
+}
+
 /// Pixels by ray.
-Program ray_program() {
-    const std::string fragment = std::string(kVoxelEyeGlsl) + std::string(kVoxelWalkGlsl) +
-                                 std::string(kVoxelShadowGlsl) + std::string(kVoxelColorGlsl) +
-                                 std::string(kVoxelMainGlsl);
+Program ray_program(const std::string& constants) {
+    const std::string fragment = constants + std::string(kVoxelEyeGlsl) +
+                                 std::string(kVoxelWalkGlsl) + std::string(kVoxelShadowGlsl) +
+                                 std::string(kVoxelColorGlsl) + std::string(kVoxelMainGlsl);
     return Program::draw("cast rays at voxels", kVoxelTableGlsl, kAllPixelsGlsl, fragment);
 }
 
-Program line_program() {
+Program line_program(const std::string& constants) {
     const std::string shared = std::string(kVoxelTableGlsl) + std::string(kVoxelEyeGlsl);
-    const std::string fragment = std::string(kVoxelWalkGlsl) + std::string(kEdgeLineGlsl);
+    const std::string fragment =
+        constants + std::string(kVoxelWalkGlsl) + std::string(kEdgeLineGlsl);
     return Program::draw("draw blocks of voxels", shared, kEdgeQuadGlsl, fragment);
 }
+
+/// A program by the constants that it is made for, made when it is first asked for.
+class Programs {
+public:
+    explicit Programs(Program (*make)(const std::string&)) : make_(make) {}
+
+    const Program& of(const std::string& constants) {
+        const auto found = made_.find(constants);
+        return found != made_.end() ? found->second
+                                    : made_.emplace(constants, make_(constants)).first->second;
+    }
+
+private:
+    Program (*make_)(const std::string&);
+    std::map<std::string, Program> made_;
+};
 
 void check_look(const VoxelLook& look) {
     const double light = look.light ? length(*look.light) : 1.0;
@@ -71,8 +105,8 @@ struct VoxelView::Scene {
     VoxelTables tables;
     std::vector<std::array<float, 4>> list; ///< of edges
     opengl::Buffer edges;
-    Program rays = ray_program();
-    Program lines = line_program();
+    Programs rays{ray_program};
+    Programs lines{line_program};
 
     Scene(const opengl::Context& on,
           std::span<const VoxelSource* const> levels,
@@ -84,7 +118,6 @@ struct VoxelView::Scene {
           edges("edges of blocks", std::span<const std::array<float, 4>>(list)) {}
 
     void set_walk(const Program& program, const EyeFrame& eye, const VoxelLook& look) const;
-    void set_colors(const EyeFrame& eye, const VoxelLook& look) const;
 };
 
 void VoxelView::Scene::set_walk(const Program& program,
@@ -105,17 +138,7 @@ void VoxelView::Scene::set_walk(const Program& program,
     program.set("level_last", look.level < 0 ? last : only);
     program.set("level_reach", static_cast<float>(std::exp2(-look.level_offset)));
     program.set("density_scale", static_cast<float>(look.density_scale));
-    program.set("white", look.white_block ? 1 : 0);
     program.set("white_block", look.white_block.value_or(Vec3i{}));
-}
-
-void VoxelView::Scene::set_colors(const EyeFrame& eye, const VoxelLook& look) const {
-    rays.set("color_mode", static_cast<std::int32_t>(look.color));
-    rays.set("eye_light", look.light ? 0 : 1);
-    rays.set("to_eye", to_float(eye.axes.away * -1.0));
-    rays.set("to_light", to_float(normalize(look.light.value_or(eye.axes.away * -1.0))));
-    const bool dark = look.shadows && look.light && look.color == VoxelColor::Shaded;
-    rays.set("shadows", dark ? 1 : 0);
 }
 
 VoxelView::VoxelView(const opengl::Context& context,
@@ -134,9 +157,12 @@ void VoxelView::draw(const ViewTarget& target,
     if (scene_->tables.empty()) return;
     target.begin();
     scene_->tables.bind();
-    scene_->set_walk(scene_->rays, eye, look);
-    scene_->set_colors(eye, look);
-    scene_->rays.use();
+    const Program& rays = scene_->rays.of(color_constants(look) + white_constant(look));
+    scene_->set_walk(rays, eye, look);
+    const Vec3d to_eye = eye.axes.away * -1.0;
+    rays.set("to_eye", to_float(to_eye));
+    rays.set("to_light", to_float(normalize(look.light.value_or(to_eye))));
+    rays.use();
     glDrawArrays(GL_TRIANGLES, 0, 3);
     scene_->context.check("cast rays at voxels");
     if (look.blocks) draw_blocks(target, camera, look);
@@ -149,10 +175,11 @@ void VoxelView::draw_blocks(const ViewTarget& target,
     const EyeFrame eye(camera, target.width(), target.height(), 1.0);
     target.begin();
     scene_->tables.bind();
-    scene_->set_walk(scene_->lines, eye, look);
-    scene_->lines.set("block_size", to_float(scene_->tables.block_size()));
+    const Program& lines = scene_->lines.of(white_constant(look));
+    scene_->set_walk(lines, eye, look);
+    lines.set("block_size", to_float(scene_->tables.block_size()));
     scene_->edges.bind_storage(kEdgesStorage);
-    scene_->lines.use();
+    lines.use();
     ViewTarget::draw_quads(static_cast<std::uint32_t>(scene_->list.size()));
     scene_->context.check("draw blocks");
 }

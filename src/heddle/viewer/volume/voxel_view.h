@@ -33,7 +33,7 @@ struct VoxelLook {
     /// From the object to the light, any length but 0. None: at the eye, shaded as render_preview does,
     /// without shadows.
     std::optional<Vec3d> light = Vec3d{-0.5, 0.6, 1.0};
-    bool shadows = true; ///< a cone towards the light for each leaf of 8^3 voxels that a ray meets
+    bool shadows = true; ///< a cone towards the light for each clump of voxels that a ray meets
     int level = -1;      ///< everywhere; -1: the one whose edges are next above a pixel's width
     double level_offset = 0.0;  ///< added to the level that a pixel asks for
     double density_scale = 1.0; ///< multiplies what voxels hide, > 0

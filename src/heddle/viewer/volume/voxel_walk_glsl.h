@@ -37,58 +37,39 @@ float pixel_width(VoxelRay ray, float t) { return parallel == 1 ? screen.z : scr
 )";
 
 /// GLSL, fragment: a ray through occupied leaves and their voxels, front to back; what voxels hide as in
-/// preview.cpp. Needs kVoxelTableGlsl, kVoxelEyeGlsl and these two, which see each voxel that hides
-/// something, `hidden` of the light that there was, and the end of each leaf:
+/// preview.cpp. Needs kVoxelTableGlsl, kVoxelEyeGlsl, a constant `white`, 1: `white_block` is solid, and these two, which see each voxel that hides
+/// something, `hidden` of the light that there was, and the end of each clump of them:
 ///     void meet(int number, int level, ivec3 at, float hidden, float t);
-///     void leave_leaf(int level);
+///     void leave_clump(int level);
 inline constexpr std::string_view kVoxelWalkGlsl = R"(
 uniform int level_first, level_last; // that serve
 uniform float level_reach;           // a level serves pixels up to this many of its edges wide
 uniform vec3 box_lo, box_hi;         // of all voxels, from voxel_middle
 uniform float density_scale;
-uniform int white;                   // the block below is solid
 uniform ivec3 white_block;
 
 void meet(int number, int level, ivec3 at, float hidden, float t);
-void leave_leaf(int level);
+void leave_clump(int level);
 
 const float kOpaque = 0.004;  // less than this is not followed
 const float kFlatWidth = 96.0 / 255.0; // these three: see preview.cpp
 const float kClosing = 1.5;
 const float kSheetGap = 0.5;
+const float kClumpGap = 4.0;   // voxels between two clumps
+const float kClumpMost = 16.0; // voxels that a clump may be long
 const float kNever = 1e30;
 
 VoxelRay ray;
 float through;    // of the light
 float sheet_end;  // t where a flat surface was last met
 float sheet_left; // what its voxels left of 1
-vec3 weight;      // voxels of the level a unit of t, by axis
-float sheet_gap;  // that a flat surface of the level may have, scene units
 
-// Steps through the cells of a lattice that a ray crosses.
-struct Walk { ivec3 at; ivec3 way; vec3 next; vec3 width; };
-
-Walk start_walk(vec3 p, vec3 d, float t, ivec3 lo, ivec3 hi) {
-    Walk w;
-    bvec3 still = equal(d, vec3(0.0));
-    bvec3 rises = greaterThan(d, vec3(0.0));
-    vec3 per = vec3(1.0) / mix(d, vec3(1.0), still);
-    w.at = clamp(ivec3(floor(p + d * t)), lo, hi);
-    w.way = 2 * ivec3(rises) - 1;
-    w.width = mix(abs(per), vec3(kNever), still);
-    w.next = mix((vec3(w.at) + vec3(rises) - p) * per, vec3(kNever), still);
-    return w;
-}
-
-float walk_end(Walk w) { return min(w.next.x, min(w.next.y, w.next.z)); }
-
-bool advance(inout Walk w, ivec3 lo, ivec3 hi) {
-    int a = w.next.x < w.next.y ? (w.next.x < w.next.z ? 0 : 2) : (w.next.y < w.next.z ? 1 : 2);
-    ivec3 axis = ivec3(equal(ivec3(0, 1, 2), ivec3(a)));
-    w.at += w.way * axis;
-    w.next += w.width * vec3(axis);
-    return all(greaterThanEqual(w.at, lo)) && all(lessThanEqual(w.at, hi));
-}
+// Of the level that is walked, in its voxels from the table's corner.
+ivec3 table_lo, table_hi; // voxels, inclusive
+vec3 origin;              // of the ray
+vec3 weight;              // of the ray's way: voxels a unit of t
+vec3 per;                 // units of t a voxel
+float sheet_gap;          // that a flat surface may have, scene units
 
 // The block of a voxel.
 ivec3 block_of(int level, ivec3 at) {
@@ -127,36 +108,6 @@ void cross_voxel(int number, int level, ivec3 at, float t, float leave) {
     through -= hidden;
 }
 
-void walk_leaf(int leaf, int level, ivec3 corner, vec3 p, float t, float t_end) {
-    ivec3 hi = corner + 7;
-    Walk w = start_walk(p, weight, t, corner, hi);
-    bool inside = true;
-    while (inside && t < t_end && through > kOpaque) {
-        float leave = min(walk_end(w), t_end);
-        if (leave > t) {
-            int number = voxel_of_leaf(leaf, w.at & 7);
-            if (number >= 0) cross_voxel(number, level, w.at, t, leave);
-        }
-        t = max(t, leave);
-        inside = advance(w, corner, hi);
-    }
-    leave_leaf(level);
-}
-
-void walk_cell(int cell, int level, ivec3 at, vec3 p, float t, float t_end) {
-    ivec3 lo = at * 16;
-    ivec3 hi = lo + 15;
-    Walk w = start_walk(p / 8.0, weight / 8.0, t, lo, hi);
-    bool inside = true;
-    while (inside && t < t_end && through > kOpaque) {
-        float leave = min(walk_end(w), t_end);
-        int leaf = leave > t ? voxel_leaf(cell, w.at) : -1;
-        if (leaf >= 0) walk_leaf(leaf, level, w.at * 8, p, t, leave);
-        t = max(t, leave);
-        inside = advance(w, lo, hi);
-    }
-}
-
 // What of a ray is within a box.
 vec2 clip(vec3 p, vec3 d, vec3 lo, vec3 hi, vec2 range) {
     for (int a = 0; a < 3; ++a) {
@@ -171,27 +122,91 @@ vec2 clip(vec3 p, vec3 d, vec3 lo, vec3 hi, vec2 range) {
     return range;
 }
 
-void walk_level(int level, float t, float t_end) {
-    vec3 p = ray.from * voxel_levels[level].per.xyz + voxel_levels[level].shift.xyz;
+// A ray on its way through a level: the voxel that it is in, or comes to, and since when.
+struct Walk {
+    ivec3 at;
+    float t;
+    bool inside; // the table, and before the end
+    ivec3 known; // the leaf whose table entries are at hand
+    int cell;
+    int leaf;
+};
+
+struct Found { int number; ivec3 at; float enter; float leave; }; // a voxel; number -1: none
+
+Walk start_level(int level, float t, inout float t_end) {
+    origin = ray.from * voxel_levels[level].per.xyz + voxel_levels[level].shift.xyz;
     weight = ray.way * voxel_levels[level].per.xyz;
+    per = vec3(1.0) / mix(weight, vec3(1.0), equal(weight, vec3(0.0)));
     sheet_gap = kSheetGap * voxel_levels[level].shift.w;
-    ivec3 leaf_lo = voxel_levels[level].lo.xyz;
-    ivec3 leaf_hi = voxel_levels[level].hi.xyz;
-    vec2 range = clip(p, weight, vec3(leaf_lo * 8), vec3(leaf_hi * 8 + 8), vec2(t, t_end));
-    t = range.x;
+    table_lo = voxel_levels[level].lo.xyz * 8;
+    table_hi = voxel_levels[level].hi.xyz * 8 + 7;
+    vec2 range = clip(origin, weight, vec3(table_lo), vec3(table_hi + 1), vec2(t, t_end));
     t_end = range.y;
-    Walk w = start_walk(p / 128.0, weight / 128.0, t, leaf_lo >> 4, leaf_hi >> 4);
-    bool inside = true;
-    while (inside && t < t_end && through > kOpaque) {
-        float leave = min(walk_end(w), t_end);
-        int cell = leave > t ? voxel_cell(level, w.at) : -1;
-        if (cell >= 0) walk_cell(cell, level, w.at, p, t, leave);
-        t = max(t, leave);
-        inside = advance(w, leaf_lo >> 4, leaf_hi >> 4);
+    ivec3 at = clamp(ivec3(floor(origin + weight * range.x)), table_lo, table_hi);
+    return Walk(at, range.x, range.x < range.y, (at >> 3) - 1, -1, -1);
+}
+
+// To the voxel, or out of the empty leaf or cell, that the ray is in, and to what lies behind it.
+Found step_on(inout Walk w, int level, float t_end) {
+    if (any(notEqual(w.at >> 3, w.known))) {
+        w.known = w.at >> 3;
+        w.cell = voxel_cell(level, w.at >> 7);
+        w.leaf = w.cell < 0 ? -1 : voxel_leaf(w.cell, w.known);
+    }
+    int size = w.cell < 0 ? 7 : w.leaf < 0 ? 3 : 0; // log2 of the cube's edge
+    ivec3 first = (w.at >> size) << size;
+    ivec3 last = first + ((1 << size) - 1);
+    bvec3 rises = greaterThan(weight, vec3(0.0));
+    ivec3 behind = mix(first - 1, last + 1, rises);
+    vec3 next = (vec3(mix(first, behind, rises)) - origin) * per;
+    next = mix(next, vec3(kNever), equal(weight, vec3(0.0)));
+    float leave = min(min(next.x, min(next.y, next.z)), t_end);
+    Found found = Found(-1, w.at, w.t, leave);
+    if (w.leaf >= 0 && leave > w.t) found.number = voxel_of_leaf(w.leaf, w.at & 7);
+    int axis = next.x < next.y ? (next.x < next.z ? 0 : 2) : (next.y < next.z ? 1 : 2);
+    ivec3 beside = clamp(ivec3(floor(origin + weight * leave)), first, last);
+    w.at = mix(beside, behind, equal(ivec3(0, 1, 2), ivec3(axis)));
+    w.t = max(w.t, leave);
+    w.inside = w.t < t_end && all(greaterThanEqual(w.at, table_lo)) && all(lessThanEqual(w.at, table_hi));
+    return found;
+}
+
+// One loop over what is empty, cells, leaves or voxels, within one over the voxels of a clump, within one
+// over clumps. A software driver runs what a branch guards for all its pixels, taken or not, and a loop
+// once at least: a loop for each of cells, leaves and voxels takes it more than twice as long.
+void walk_level(int level, float t, float t_end) {
+    Walk w = start_level(level, t, t_end);
+    float gap = kClumpGap * voxel_levels[level].per.w;
+    float most = kClumpMost * voxel_levels[level].per.w;
+    while (w.inside && through > kOpaque) {
+        float first_enter = kNever; // of the clump's voxels
+        float last_leave = kNever;
+        bool clump = true;
+        while (clump) {
+            Found found = Found(-1, w.at, w.t, w.t);
+            while (w.inside && found.number < 0 && through > kOpaque && w.t - last_leave <= gap) {
+                found = step_on(w, level, t_end);
+            }
+            if (found.number >= 0) {
+                cross_voxel(found.number, level, found.at, found.enter, found.leave);
+                first_enter = min(first_enter, found.enter);
+                last_leave = found.leave;
+            }
+            clump = found.number >= 0 && found.leave - first_enter < most;
+        }
+        leave_clump(level);
     }
 }
 
-// From the ray's start to t_end: each level serves until a pixel is wider than its voxels.
+// Where on the ray a pixel gets wider than a level's voxels.
+float end_of(int level) {
+    float wide = voxel_levels[level].per.w * level_reach;
+    if (parallel == 1) return screen.z <= wide ? kNever : -kNever;
+    return wide / screen.z - ray.past;
+}
+
+// From the ray's start to t_end.
 void walk_ray(float t_end) {
     through = 1.0;
     sheet_end = -kNever;
@@ -199,15 +214,12 @@ void walk_ray(float t_end) {
     vec2 range = clip(ray.from, ray.way, box_lo, box_hi, vec2(0.0, t_end));
     float t = range.x;
     t_end = range.y;
-    for (int level = level_first; level <= level_last && t < t_end && through > kOpaque; ++level) {
-        float until = t_end;
-        if (level < level_last) {
-            float wide = voxel_levels[level].per.w * level_reach; // pixels
-            float serves = parallel == 1 ? (screen.z <= wide ? kNever : -1.0) : wide / screen.z - ray.past;
-            until = min(t_end, serves);
-        }
-        if (until > t) walk_level(level, t, until);
-        t = max(t, until);
+    int level = level_first;
+    while (t < t_end && through > kOpaque) {
+        while (level < level_last && end_of(level) <= t) ++level;
+        float until = level < level_last ? min(t_end, end_of(level)) : t_end;
+        walk_level(level, t, until);
+        t = until;
     }
 }
 )";
