@@ -1,3 +1,4 @@
+#include <heddle/viewer/volume/block_edges.h>
 #include <heddle/viewer/volume/test_voxels.h>
 
 #include <gtest/gtest.h>
@@ -38,6 +39,22 @@ TEST(VoxelLook, FibersAreBrightWhereLightComesFromTheirSide) {
         return pixel(picture(view, camera, look), kSize / 2, kSize / 2)[1];
     };
     EXPECT_GT(green({0.0, 1.0, 0.3}), green({1.0, 0.0, 0.3}) + 40);
+}
+
+TEST(VoxelLook, ASurfaceSeenFromItsDarkSideIsDarkWhereThereAreShadows) {
+    const opengl::Context context;
+    Progress progress;
+    VoxelGrid sheet = make_voxels(box({0, 0, 0}, {16, 16, 1}), 1.0, {0.0f, 0.0f, 1.0f});
+    sheet.about.materials[0].kind = MaterialKind::Surface;
+    const VoxelView view(context, Sources{&sheet}, {}, progress);
+    const CameraView camera = around(view, {0.0, 0.0, 1.0}, 0.0);
+    const auto green = [&](double z, bool shadows) {
+        const VoxelLook look{.light = Vec3d{0.0, 0.3, z}, .shadows = shadows};
+        return pixel(picture(view, camera, look), kSize / 2, kSize / 2)[1];
+    };
+    EXPECT_EQ(green(1.0, true), green(1.0, false));
+    EXPECT_GT(green(-1.0, false), 180) << "the cosine has no sign";
+    EXPECT_LT(green(-1.0, true), green(-1.0, false) - 60);
 }
 
 TEST(VoxelLook, DensityGoesFromBlueToRedAndItsScaleMakesThin) {
@@ -83,6 +100,11 @@ TEST(VoxelLook, LinesLieOnTheEdgesOfOccupiedBlocks) {
         EXPECT_FALSE(is_line(at, 64) || is_line(64, at)) << "the empty block's";
         EXPECT_FALSE(is_line(at, at + 3) || is_line(at, 16));
     }
+}
+
+TEST(VoxelLook, BlocksThatTouchShareTheirEdges) {
+    const std::vector<Vec3i> blocks{{-1, 0, 0}, {0, 0, 0}, {4, 4, 4}};
+    EXPECT_EQ(edges_of_blocks(blocks, {1.0, 2.0, 3.0}, {}).size(), 12u + 12u + 12u - 4u);
 }
 
 TEST(VoxelLook, AHiddenLineIsDimmer) {
