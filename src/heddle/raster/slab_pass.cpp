@@ -84,7 +84,9 @@ const SlabPass& SlabKit::pass(RasterPath path) {
 }
 
 const opengl::Buffer& SlabKit::pool(std::size_t bytes) {
-    if (!pool_ || pool_->byte_count() != bytes) {
+    // frames differ by some bricks, and all of it is cleared for each batch
+    const std::size_t held = pool_ ? pool_->byte_count() : 0;
+    if (held < bytes || held > 2 * bytes) {
         pool_.reset(); // there may not be room for both
         pool_.emplace("sums of bricks", bytes);
     }

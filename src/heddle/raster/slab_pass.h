@@ -49,7 +49,7 @@ public:
     /// Fragment or Compute; Auto until one is chosen.
     [[nodiscard]] RasterPath path() const { return path_; }
     void choose(RasterPath path) { path_ = path; }
-    /// Memory for sums; what it held is lost where the last call asked for another size.
+    /// Memory for sums, `bytes` or up to twice as many. A reference from an earlier call is no longer good.
     /// @throws Error  OutOfMemory
     [[nodiscard]] const opengl::Buffer& pool(std::size_t bytes);
 
