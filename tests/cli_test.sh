@@ -106,6 +106,10 @@ works export raster1.vdb --to mitsuba06 -o flakes
 works info flakes/volume.vol
 works voxelize flakes/volume.vol --levels 0 -o flakes.vdb
 fails 2 "--pad is of no use here" export raster1.vdb --to mitsuba06 --pad 2 -o flakes
+works export raster1.vdb --to mitsuba06 --block-samples 0 -o flake --json
+[ "$(json blocks)" -eq 1 ] && works voxelize flake/volume.vol --levels 0 -o flake.vdb || wrong "more than one block holds all"
+fails 2 "2 are the least" export raster1.vdb --to mitsuba06 --block-samples 1 -o flake
+fails 2 "--block-samples is of no use here" export raster1.vdb --block-samples 8 -o flakes
 fails 2 "--stddev is of no use here" export raster1.vdb --stddev 0.5 -o flakes
 works view knit.bcc --headless --yarn slice.toml --frames 2 --size 64x64 -o frames
 [ "$(head -c 4 frames/frame_0001.png | tail -c 3)" = PNG ] || wrong "the second frame is no PNG"

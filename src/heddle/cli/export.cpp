@@ -30,8 +30,15 @@ void export_mitsuba06(const Arguments& arguments, Report& report, ProgressBar& b
     bar.begin("read", "files", 1);
     const std::unique_ptr<VoxelGrid> grid =
         read_vdb(arguments.text("FILE"), static_cast<int>(arguments.integer("level")));
+    const Mitsuba06Options options{
+        .stddev = arguments.number("stddev"),
+        .block_samples = static_cast<std::int32_t>(arguments.integer("block-samples"))};
+    if (options.block_samples == 1) {
+        throw UsageError(
+            "--block-samples: neighbours share a layer, so 2 are the least; 0 = one block");
+    }
     Mitsuba06Files files;
-    write_output([&] { files = write_mitsuba06(*grid, folder, arguments.number("stddev"), bar); });
+    write_output([&] { files = write_mitsuba06(*grid, folder, options, bar); });
     bar.finish();
     if (files.no_fiber > 0) {
         report.note(str(files.no_fiber, " voxels are of surfaces: they have no direction here"));
@@ -39,7 +46,11 @@ void export_mitsuba06(const Arguments& arguments, Report& report, ProgressBar& b
     report.text("output", folder);
     report.add("resolution", "resolution", {files.samples.x, files.samples.y, files.samples.z},
                str(files.samples.x, " x ", files.samples.y, " x ", files.samples.z, " samples"));
-    report.count("blocks", files.blocks, "of 64 samples each way");
+    const Vec3i n = files.block_samples;
+    report.count("blocks", files.blocks,
+                 str("of ", n.x, " x ", n.y, " x ", n.z, " samples, of ", files.cells.x, " x ",
+                     files.cells.y, " x ", files.cells.z));
+    report.data("cells", {files.cells.x, files.cells.y, files.cells.z});
     report.number("scale", files.scale, "extinction per scene unit at density 1");
     report.bytes("files", files.bytes);
 }
@@ -49,8 +60,9 @@ void run_export(const Arguments& arguments, Report& report, ProgressBar& bar) {
         if (arguments.given("pad")) throw UsageError("--pad is of no use here: blocks are sparse");
         return export_mitsuba06(arguments, report, bar);
     }
-    if (arguments.given("stddev")) {
-        throw UsageError("--stddev is of no use here: it needs --to mitsuba06");
+    for (const char* option : {"stddev", "block-samples"}) {
+        if (!arguments.given(option)) continue;
+        throw UsageError(str("--", option, " is of no use here: it needs --to mitsuba06"));
     }
     const auto start = std::chrono::steady_clock::now();
     const std::string& folder = arguments.text("output");
@@ -87,6 +99,8 @@ Command export_command() {
              "of mitsuba3: grows it on each axis with emptiness"},
             {"--stddev", "S", "0.3", number(0.01, 10), "",
              "of mitsuba06: how far flakes stray from the fiber"},
+            {"--block-samples", "N", "64", integer(0, 512), "along an edge",
+             "of mitsuba06: samples of a block; 0 = one block holds all"},
         },
         run_export};
 }

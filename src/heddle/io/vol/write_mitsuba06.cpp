@@ -19,9 +19,8 @@
 namespace heddle {
 namespace {
 
-constexpr std::int32_t kSamples = 64; ///< of a block, per axis
-constexpr std::int32_t kPitch = kSamples - 1;
-constexpr std::int32_t kMostBlocks = 999; ///< three digits in a file's name
+constexpr std::int64_t kMostSamples = std::int64_t{1} << 31; ///< of a block
+constexpr std::int32_t kMostBlocks = 999;                    ///< three digits in a file's name
 constexpr std::uint8_t kNoDirection = 255;
 
 /// What one voxel becomes.
@@ -113,7 +112,16 @@ struct Placed {
 struct Blocks {
     Vec3i low; ///< voxel index of sample 0
     Vec3i cells;
+    Vec3i samples; ///< of a block
     std::map<Cell, std::vector<Placed>> placed;
+
+    /// Samples between the first ones of neighbouring blocks.
+    [[nodiscard]] Vec3i pitch() const { return samples - Vec3i{1, 1, 1}; }
+    /// Voxel index, from `low`, of a block's first sample.
+    [[nodiscard]] Vec3i first_of(Vec3i cell) const {
+        const Vec3i p = pitch();
+        return {cell.x * p.x, cell.y * p.y, cell.z * p.z};
+    }
 
     void add(const Sample& sample, double scale) {
         const Vec3i at = sample.at - low;
@@ -125,22 +133,27 @@ struct Blocks {
             Vec3i in;
             bool here = true;
             for (int a = 0; a < 3; ++a) {
+                const std::int32_t step = samples[a] - 1;
                 cell[a] =
-                    at[a] / kPitch - (corner >> a & 1); // the block before shares its last layer
-                in[a] = at[a] - cell[a] * kPitch;
-                here = here && cell[a] >= 0 && cell[a] < cells[a] && in[a] < kSamples;
+                    at[a] / step - (corner >> a & 1); // the block before shares its last layer
+                in[a] = at[a] - cell[a] * step;
+                here = here && cell[a] >= 0 && cell[a] < cells[a] && in[a] < samples[a];
             }
             if (!here) continue;
-            const std::int32_t number = (in.z * kSamples + in.y) * kSamples + in.x;
+            const std::int64_t number = (std::int64_t{in.z} * samples.y + in.y) * samples.x + in.x;
             placed[{cell.x, cell.y, cell.z}].push_back(
                 {static_cast<std::uint32_t>(number), density, sample.theta, sample.phi});
         }
     }
 };
 
-void write_head(OutputFile& file, std::int32_t encoding, std::int32_t channels, const Bounds& box) {
+void write_head(OutputFile& file,
+                std::int32_t encoding,
+                Vec3i samples,
+                std::int32_t channels,
+                const Bounds& box) {
     file.write("VOL\3", 4);
-    for (const std::int32_t v : {encoding, kSamples, kSamples, kSamples, channels}) {
+    for (const std::int32_t v : {encoding, samples.x, samples.y, samples.z, channels}) {
         file.write_value(v);
     }
     for (const Vec3d& p : {box.lo, box.hi}) {
@@ -150,10 +163,12 @@ void write_head(OutputFile& file, std::int32_t encoding, std::int32_t channels, 
 
 void write_whole(const std::string& path,
                  std::int32_t encoding,
+                 Vec3i samples,
                  const Bounds& box,
                  const std::vector<std::uint8_t>& bytes) {
     OutputFile file(path);
-    write_head(file, encoding, encoding == 4 ? 3 : 1, box); // directions say 3 and store 2 bytes
+    write_head(file, encoding, samples, encoding == 4 ? 3 : 1,
+               box); // directions say 3 and store 2 bytes
     file.write_array(std::span<const std::uint8_t>(bytes));
     file.commit();
 }
@@ -173,25 +188,28 @@ std::int64_t write_block(const Blocks& blocks,
                          const std::vector<Placed>& placed,
                          Vec3d h,
                          const std::string& folder) {
-    constexpr std::size_t kCount = std::size_t{kSamples} * kSamples * kSamples;
-    std::vector<std::uint8_t> density(kCount, 0);
-    std::vector<std::uint8_t> angles(2 * kCount, kNoDirection);
+    const Vec3i n = blocks.samples;
+    const std::size_t count = static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y) *
+                              static_cast<std::size_t>(n.z);
+    std::vector<std::uint8_t> density(count, 0);
+    std::vector<std::uint8_t> angles(2 * count, kNoDirection);
     for (const Placed& p : placed) {
         density[p.at] = p.density;
-        angles[2 * p.at] = p.theta;
-        angles[2 * p.at + 1] = p.phi;
+        angles[2 * std::size_t{p.at}] = p.theta;
+        angles[2 * std::size_t{p.at} + 1] = p.phi;
     }
     const auto [x, y, z] = cell;
-    const Vec3i first = Vec3i{x, y, z} * kPitch;
-    const Bounds box = bounds_of(blocks.low, first, first + Vec3i{kPitch, kPitch, kPitch}, h);
-    write_whole(folder + "/" + BlockName{"density_", ".vol", {}}.of({x, y, z}), 3, box, density);
-    write_whole(folder + "/" + BlockName{"orientation_", ".vol", {}}.of({x, y, z}), 4, box, angles);
-    return static_cast<std::int64_t>(3 * kCount + 96);
+    const Vec3i first = blocks.first_of({x, y, z});
+    const Bounds box = bounds_of(blocks.low, first, first + blocks.pitch(), h);
+    write_whole(folder + "/" + BlockName{"density_", ".vol", {}}.of({x, y, z}), 3, n, box, density);
+    write_whole(folder + "/" + BlockName{"orientation_", ".vol", {}}.of({x, y, z}), 4, n, box,
+                angles);
+    return static_cast<std::int64_t>(3 * count + 96);
 }
 
 std::int64_t write_dictionary(const Blocks& blocks, Vec3d h, const std::string& folder) {
     OutputFile file(folder + "/volume.vol");
-    const Bounds box = bounds_of(blocks.low, {}, blocks.cells * kPitch, h);
+    const Bounds box = bounds_of(blocks.low, {}, blocks.first_of(blocks.cells), h);
     for (const Vec3d& p : {box.lo, box.hi}) {
         for (int a = 0; a < 3; ++a) file.write_value(static_cast<float>(p[a]));
     }
@@ -270,17 +288,27 @@ struct Extent {
 };
 
 /// The blocks of the voxels and a layer of emptiness about them.
-Blocks plan_blocks(const Extent& extent) {
+Blocks plan_blocks(const Extent& extent, std::int32_t asked) {
     Blocks blocks;
+    std::int64_t samples = 1; // of a block
     for (int a = 0; a < 3; ++a) {
         blocks.low[a] = extent.lo[a] - 1;
-        blocks.cells[a] = (extent.hi[a] + 1 - blocks.low[a] + kPitch - 1) / kPitch;
+        const std::int32_t steps = extent.hi[a] + 1 - blocks.low[a];
+        const std::int32_t pitch = asked == 0 ? steps : asked - 1;
+        blocks.samples[a] = pitch + 1;
+        blocks.cells[a] = (steps + pitch - 1) / pitch;
         if (blocks.cells[a] > kMostBlocks) {
             throw Error(ErrorCode::InvalidArgument,
-                        str("export: ", blocks.cells[a], " blocks of 64 samples along ", "xyz"[a],
-                            " (limit 999)"),
-                        "export a coarser --level");
+                        str("export: ", blocks.cells[a], " blocks of ", asked, " samples along ",
+                            "xyz"[a], " (limit 999)"),
+                        "export larger blocks, or a coarser --level");
         }
+        samples = std::min(samples * blocks.samples[a], kMostSamples + 1);
+    }
+    if (samples > kMostSamples) {
+        throw Error(ErrorCode::InvalidArgument,
+                    "export: one block of more than 2^31 samples (limit 2^31)",
+                    "export smaller blocks, or a coarser --level");
     }
     return blocks;
 }
@@ -289,7 +317,7 @@ Blocks plan_blocks(const Extent& extent) {
 
 Mitsuba06Files write_mitsuba06(const VoxelSource& source,
                                const std::string& folder,
-                               double stddev,
+                               const Mitsuba06Options& options,
                                Progress& progress) {
     Extent extent;
     for_each_sample(source, progress, [&](const Sample& s) { extent.grow(s); });
@@ -298,11 +326,13 @@ Mitsuba06Files write_mitsuba06(const VoxelSource& source,
                     "export: the volume has no voxels that hide anything",
                     "export a volume that has some");
     }
-    Blocks blocks = plan_blocks(extent);
+    Blocks blocks = plan_blocks(extent, options.block_samples);
     for_each_sample(source, progress, [&](const Sample& s) { blocks.add(s, extent.densest); });
     make_folder(folder);
     const Vec3d h = source.info().lattice.voxel_size;
-    Mitsuba06Files out{.samples = blocks.cells * kPitch + Vec3i{1, 1, 1},
+    Mitsuba06Files out{.samples = blocks.first_of(blocks.cells) + Vec3i{1, 1, 1},
+                       .block_samples = blocks.samples,
+                       .cells = blocks.cells,
                        .blocks = static_cast<std::int64_t>(blocks.placed.size()),
                        .scale = extent.densest,
                        .no_fiber = extent.no_fiber};
@@ -316,8 +346,8 @@ Mitsuba06Files write_mitsuba06(const VoxelSource& source,
     Vec3f albedo{0.8f, 0.8f, 0.8f};
     if (!source.info().materials.empty()) albedo = source.info().materials[0].albedo;
     OutputFile scene(folder + "/scene.xml");
-    const std::string text = scene_text(bounds_of(blocks.low, {}, blocks.cells * kPitch, h),
-                                        extent.densest, stddev, albedo);
+    const std::string text = scene_text(bounds_of(blocks.low, {}, blocks.first_of(blocks.cells), h),
+                                        extent.densest, options.stddev, albedo);
     scene.write(text.data(), text.size());
     scene.commit();
     out.bytes += static_cast<std::int64_t>(text.size());

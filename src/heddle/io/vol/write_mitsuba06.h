@@ -8,10 +8,18 @@
 
 namespace heddle {
 
+/// How a volume is written for Mitsuba 0.6.
+struct Mitsuba06Options {
+    double stddev = 0.3;             ///< of the flakes about the fiber, as Mitsuba has it
+    std::int32_t block_samples = 64; ///< along a block's edge, 2 to 512; 0: one block holds all
+};
+
 /// What was written for Mitsuba 0.6.
 struct Mitsuba06Files {
     Vec3i samples;             ///< of the whole box, empty blocks included
-    std::int64_t blocks = 0;   ///< of 64 x 64 x 64 samples
+    Vec3i block_samples;       ///< of a block
+    Vec3i cells;               ///< blocks per axis, empty ones included
+    std::int64_t blocks = 0;   ///< that hold something
     std::int64_t bytes = 0;    ///< of all files
     double scale = 0.0;        ///< the medium's: extinction per scene unit at density 1
     std::int64_t no_fiber = 0; ///< voxels without a fiber lobe: written without a direction
@@ -24,12 +32,11 @@ struct Mitsuba06Files {
 ///
 /// Density is what makes the mean extinction over the axes that of the voxel (docs/import.md, inverted);
 /// the densest voxel has 255. The folder is made.
-/// @param stddev  of the flakes about the fiber, as Mitsuba has it
-/// @throws Error  InvalidArgument: no voxels, or more than 999 blocks along an axis; CannotWrite;
-///                Cancelled
+/// @throws Error  InvalidArgument: no voxels, more than 999 blocks along an axis, or one block of more
+///                than 2^31 samples; CannotWrite; Cancelled
 Mitsuba06Files write_mitsuba06(const VoxelSource& source,
                                const std::string& folder,
-                               double stddev,
+                               const Mitsuba06Options& options,
                                Progress& progress);
 
 } // namespace heddle

@@ -59,7 +59,7 @@ TEST(WriteMitsuba06, IsReadBackEqualWithinItsBytes) {
     const std::string path = folder.file("out");
     Progress silent;
     const VoxelGrid grid = row();
-    const Mitsuba06Files files = write_mitsuba06(grid, path, 0.3, silent);
+    const Mitsuba06Files files = write_mitsuba06(grid, path, {}, silent);
     EXPECT_EQ(files.blocks, 3);
     EXPECT_EQ(files.no_fiber, 0);
     EXPECT_EQ(files.samples, (Vec3i{3 * 63 + 1, 64, 64}));
@@ -88,11 +88,40 @@ TEST(WriteMitsuba06, IsReadBackEqualWithinItsBytes) {
     }
 }
 
+TEST(WriteMitsuba06, BlocksOfAnySizeAreReadBackAlike) {
+    const testing::TempFolder folder;
+    Progress silent;
+    const VoxelGrid grid = row();
+    testing::TestVoxels first;
+    for (const std::int32_t edge : {64, 0, 2, 17, 100}) {
+        const std::string path = folder.file("out" + std::to_string(edge));
+        const Mitsuba06Files files = write_mitsuba06(grid, path, {.block_samples = edge}, silent);
+        if (edge == 0) {
+            EXPECT_EQ(files.samples, (Vec3i{kVoxels + 2, 3, 3}));
+            EXPECT_EQ(files.block_samples, files.samples);
+            EXPECT_EQ(files.blocks, 1);
+        }
+        if (edge == 17) {
+            EXPECT_EQ(files.cells, (Vec3i{11, 1, 1})); // 161 steps in blocks of 16
+        }
+        VolOptions options;
+        options.density_scale = files.scale;
+        const testing::TestVoxels voxels =
+            testing::voxels_of(*testing::read_path(path + "/volume.vol", options).grid);
+        if (first.empty()) first = voxels;
+        ASSERT_EQ(voxels.size(), first.size()) << edge;
+        for (const auto& [at, v] : voxels) {
+            EXPECT_EQ(v.coverage, first.at(at).coverage) << edge;
+            EXPECT_EQ(v.lobe.sggx, first.at(at).lobe.sggx) << edge;
+        }
+    }
+}
+
 TEST(WriteMitsuba06, TheSceneNamesTheFilesAndTheScale) {
     const testing::TempFolder folder;
     const std::string path = folder.file("out");
     Progress silent;
-    (void)write_mitsuba06(row(), path, 0.25, silent);
+    (void)write_mitsuba06(row(), path, {.stddev = 0.25}, silent);
     std::ifstream in(path + "/scene.xml");
     const std::string text{std::istreambuf_iterator<char>(in), {}};
     for (const char* part : {"hgridvolume", "value=\"density_\"", "value=\"orientation_\"",
@@ -106,10 +135,10 @@ TEST(WriteMitsuba06, SurfacesHaveNoDirectionAndNothingIsAnError) {
     Progress silent;
     VoxelGrid grid = row();
     grid.about.materials[0].kind = MaterialKind::Surface;
-    EXPECT_EQ(write_mitsuba06(grid, folder.file("out"), 0.3, silent).no_fiber, kVoxels);
-    EXPECT_THROW((void)write_mitsuba06(VoxelGrid{}, folder.file("none"), 0.3, silent), Error);
+    EXPECT_EQ(write_mitsuba06(grid, folder.file("out"), {}, silent).no_fiber, kVoxels);
+    EXPECT_THROW((void)write_mitsuba06(VoxelGrid{}, folder.file("none"), {}, silent), Error);
     grid.blocks.back().leaves.back().origin = {70000, 8, -8};
-    EXPECT_THROW((void)write_mitsuba06(grid, folder.file("far"), 0.3, silent), Error);
+    EXPECT_THROW((void)write_mitsuba06(grid, folder.file("far"), {}, silent), Error);
 }
 
 } // namespace
