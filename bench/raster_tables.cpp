@@ -3,10 +3,11 @@
 #include <heddle/geom/generate.h>
 #include <heddle/geom/slice_image.h>
 #include <heddle/io/yarn_file.h>
-#include <heddle/raster/context.h>
-#include <heddle/raster/test_slices.h>
+#include <heddle/opengl/context.h>
+#include <heddle/raster/test_difference.h>
 #include <heddle/raster/voxelize_slices.h>
-#include <heddle/viewer/radix_sort.h>
+#include <heddle/slice/test_slices.h>
+#include <heddle/viewer/slice/radix_sort.h>
 
 #include <algorithm>
 #include <array>
@@ -65,7 +66,7 @@ double radix_seconds(const std::vector<std::uint32_t>& keys) {
 }
 
 void print_sort() {
-    const raster::Context context;
+    const opengl::Context context;
     std::puts(
         "| keys | RadixSort, ms | std::sort, ms | ratio | std::sort with numbers, ms | ratio |\n"
         "|---|---|---|---|---|---|");
@@ -87,7 +88,7 @@ void print_sort() {
 
 Geometry knit(std::int64_t nx, std::int64_t ny, const YarnType& yarn) {
     Geometry cloth = generate({.kind = GenerateKind::Knit, .nx = nx, .ny = ny});
-    raster::test::set_yarn(cloth, yarn);
+    slice::test::set_yarn(cloth, yarn);
     cloth.yarns[0].radius = 0.1f;
     return cloth;
 }
