@@ -4,6 +4,13 @@
 
 namespace heddle::viewer {
 
+/// GLSL, vertex: all pixels, as a triangle: ViewTarget::draw_all.
+inline constexpr std::string_view kAllPixelsGlsl = R"(
+void main() {
+    gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);
+}
+)";
+
 /// GLSL: the ray of a pixel, in the eye's axes.
 inline constexpr std::string_view kEyeGlsl = R"(
 uniform vec3 screen;  // width and height, pixels; width of a pixel: units; not parallel: at distance 1

@@ -72,6 +72,10 @@ void ViewTarget::draw_quads(std::uint32_t count) {
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(count));
 }
 
+void ViewTarget::draw_all() {
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
 std::vector<float> ViewTarget::read() const {
     std::vector<float> out(4 * static_cast<std::size_t>(width_) *
                            static_cast<std::size_t>(height_));

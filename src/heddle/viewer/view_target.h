@@ -34,6 +34,8 @@ public:
     void begin() const;
     /// Draws `count` quads of four corners by the program in use.
     static void draw_quads(std::uint32_t count);
+    /// Draws all pixels by the program in use, whose vertices are kAllPixelsGlsl's.
+    static void draw_all();
     /// RGBA, linear, times alpha, rows from below.
     [[nodiscard]] std::vector<float> read() const;
     /// What is seen over white.

@@ -1,18 +1,13 @@
 #include <heddle/window/presenter.h>
 
+#include <heddle/viewer/eye_glsl.h>
+
 #include <epoxy/gl.h>
 
 #include <string_view>
 
 namespace heddle::window {
 namespace {
-
-constexpr std::string_view kWholeGlsl = R"(
-void main() {
-    vec2 corner = vec2((gl_VertexID & 1) == 0 ? -1.0 : 1.0, (gl_VertexID & 2) == 0 ? -1.0 : 1.0);
-    gl_Position = vec4(corner, 0.0, 1.0);
-}
-)";
 
 constexpr std::string_view kShowGlsl = R"(
 layout(binding = 0) uniform sampler2D fine;
@@ -33,7 +28,8 @@ void main() {
 
 } // namespace
 
-Presenter::Presenter() : program_(opengl::Program::draw("show", "", kWholeGlsl, kShowGlsl)) {
+Presenter::Presenter()
+    : program_(opengl::Program::draw("show", "", viewer::kAllPixelsGlsl, kShowGlsl)) {
     glCreateVertexArrays(1, &vertices_);
 }
 
@@ -54,7 +50,7 @@ void Presenter::show(const viewer::Refiner& picture,
     picture.coarse().bind_color(1);
     program_.set("rows_done", picture.rows_done());
     program_.use();
-    viewer::ViewTarget::draw_quads(1);
+    viewer::ViewTarget::draw_all();
 }
 
 } // namespace heddle::window

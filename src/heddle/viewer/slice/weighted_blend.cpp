@@ -1,6 +1,7 @@
 #include <heddle/viewer/slice/weighted_blend.h>
 
 #include <heddle/base/error.h>
+#include <heddle/viewer/eye_glsl.h>
 
 #include <epoxy/gl.h>
 
@@ -8,13 +9,6 @@
 
 namespace heddle::viewer {
 namespace {
-
-constexpr std::string_view kWholeGlsl = R"(
-void main() {
-    vec2 corner = vec2((gl_VertexID & 1) == 0 ? -1.0 : 1.0, (gl_VertexID & 2) == 0 ? -1.0 : 1.0);
-    gl_Position = vec4(corner, 0.0, 1.0);
-}
-)";
 
 constexpr std::string_view kResolveGlsl = R"(
 layout(binding = 1) uniform sampler2D sums;
@@ -44,7 +38,7 @@ GLuint make_image(GLenum format, std::int32_t width, std::int32_t height) {
 WeightedBlend::WeightedBlend(std::int32_t width, std::int32_t height)
     : width_(width),
       height_(height),
-      resolve_(opengl::Program::draw("resolve weights", "", kWholeGlsl, kResolveGlsl)) {
+      resolve_(opengl::Program::draw("resolve weights", "", kAllPixelsGlsl, kResolveGlsl)) {
     sums_ = make_image(GL_RGBA32F, width, height);
     through_ = make_image(GL_R32F, width, height);
     glCreateFramebuffers(1, &frame_);
@@ -87,7 +81,7 @@ void WeightedBlend::resolve(const ViewTarget& target) const {
     glBindTextureUnit(1, sums_);
     glBindTextureUnit(2, through_);
     resolve_.use();
-    ViewTarget::draw_quads(1);
+    ViewTarget::draw_all();
 }
 
 } // namespace heddle::viewer

@@ -3,6 +3,7 @@
 #include <heddle/base/error.h>
 #include <heddle/opengl/shader.h>
 #include <heddle/viewer/eye_frame.h>
+#include <heddle/viewer/eye_glsl.h>
 #include <heddle/viewer/volume/block_edges.h>
 #include <heddle/viewer/volume/voxel_glsl.h>
 #include <heddle/viewer/volume/voxel_line_glsl.h>
@@ -163,7 +164,7 @@ void VoxelView::draw(const ViewTarget& target,
     rays.set("to_eye", to_float(to_eye));
     rays.set("to_light", to_float(normalize(look.light.value_or(to_eye))));
     rays.use();
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    ViewTarget::draw_all();
     scene_->context.check("cast rays at voxels");
     if (look.blocks) draw_blocks(target, camera, look);
 }

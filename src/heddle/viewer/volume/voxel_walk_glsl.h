@@ -4,13 +4,6 @@
 
 namespace heddle::viewer {
 
-/// GLSL, vertex: all pixels, as a triangle.
-inline constexpr std::string_view kAllPixelsGlsl = R"(
-void main() {
-    gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);
-}
-)";
-
 /// GLSL: a camera whose rays start close to the voxels: an eye far away costs no bits of their places.
 inline constexpr std::string_view kVoxelEyeGlsl = R"(
 uniform vec3 screen;          // width and height, pixels; width of a pixel: scene units; not parallel: at 1
