@@ -4,8 +4,8 @@
 
 namespace heddle::viewer {
 
-/// GLSL, fragment: whether light comes to a place: a cone of places towards it, one level coarser than
-/// what is lit and coarser with distance. Needs kVoxelWalkGlsl.
+/// GLSL, fragment: whether light comes to a place: a cone of places towards it, one level coarser
+/// than what is lit and coarser with distance. Needs kVoxelWalkGlsl.
 inline constexpr std::string_view kVoxelShadowGlsl = R"(
 uniform vec3 to_light; // unit
 
@@ -29,20 +29,22 @@ float lit_at(vec3 place, int level) {
 }
 )";
 
-/// GLSL, fragment: colours of what a voxel hides. `Shaded` follows kShadeGlsl's model of slices; with the
-/// light at the eye, preview.cpp's. Constants of the program: `color_mode`, a VoxelColor; `eye_light`, 1:
-/// the light is at the eye; `shadows`, 1 or 0.                                        [Kajiya 1989]
+/// GLSL, fragment: colours of what a voxel hides. `Shaded` follows kShadeGlsl's model of slices;
+/// with the light at the eye, preview.cpp's. Constants of the program: `color_mode`, a VoxelColor;
+/// `eye_light`, 1: the light is at the eye; `shadows`, 1 or 0.                        [Kajiya 1989]
 inline constexpr std::string_view kVoxelColorGlsl = R"(
 uniform vec3 to_eye; // unit, of the picture's middle
 
 const float kAmbient = 0.25; // as kShadeGlsl
 
 vec3 heat(float x) { // blue, green, yellow, red
-    return vec3(clamp(2.0 * x - 0.4, 0.0, 1.0), 1.0 - abs(2.0 * x - 0.9), clamp(1.0 - 2.2 * x, 0.0, 1.0));
+    return vec3(clamp(2.0 * x - 0.4, 0.0, 1.0), 1.0 - abs(2.0 * x - 0.9),
+                clamp(1.0 - 2.2 * x, 0.0, 1.0));
 }
 
-const vec3 kDensityColors[5] = vec3[](vec3(0.02, 0.05, 0.6), vec3(0.0, 0.45, 0.7), vec3(0.1, 0.6, 0.1),
-                                      vec3(0.85, 0.7, 0.0), vec3(0.75, 0.02, 0.02));
+const vec3 kDensityColors[5] =
+    vec3[](vec3(0.02, 0.05, 0.6), vec3(0.0, 0.45, 0.7), vec3(0.1, 0.6, 0.1), vec3(0.85, 0.7, 0.0),
+           vec3(0.75, 0.02, 0.02));
 
 vec3 density_color(float density) {
     float x = 4.0 * clamp(density, 0.0, 1.0);
@@ -86,7 +88,8 @@ Lit lit_from_light(vec3 color, vec3 axis, float wide, bool fiber) {
         facing *= wide;
         shine = 0.0;
     }
-    float ambient = kAmbient * mix(0.5, 1.0, fiber ? across_eye : abs(along_eye)); // shapes in shadows
+    // what faces the eye is brighter: shadows show shapes
+    float ambient = kAmbient * mix(0.5, 1.0, fiber ? across_eye : abs(along_eye));
     return Lit(color * ambient, color * (1.0 - kAmbient) * facing + shine);
 }
 
@@ -151,7 +154,9 @@ void meet(int number, int level, ivec3 at, float hidden, float t) {
 // One ray to the light from the middle of what a clump hides.
 void leave_clump(int level) {
     float lit = 1.0;
-    if (shadows == 1 && clump_hidden > 0.01) lit = lit_at(ray.from + clump_t / clump_hidden * ray.way, level);
+    if (shadows == 1 && clump_hidden > 0.01) {
+        lit = lit_at(ray.from + clump_t / clump_hidden * ray.way, level);
+    }
     sum += lit * clump_direct;
     clump_direct = vec3(0.0);
     clump_hidden = 0.0;

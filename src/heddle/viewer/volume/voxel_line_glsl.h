@@ -6,7 +6,8 @@ namespace heddle::viewer {
 
 /// GLSL, vertex: edges of blocks as quads that hold lines one pixel wide. Needs kVoxelEyeGlsl.
 inline constexpr std::string_view kEdgeQuadGlsl = R"(
-layout(std430, binding = 14) readonly buffer Edges { vec4 edges[]; }; // first corner, from voxel_middle; axis
+// First corner, from voxel_middle; axis.
+layout(std430, binding = 14) readonly buffer Edges { vec4 edges[]; };
 uniform vec3 block_size;
 flat out vec4 ends;  // pixels
 flat out vec4 edge;

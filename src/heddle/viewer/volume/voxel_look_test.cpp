@@ -110,7 +110,7 @@ TEST(VoxelLook, BlocksThatTouchShareTheirEdges) {
 TEST(VoxelLook, AHiddenLineIsDimmer) {
     const opengl::Context context;
     Progress progress;
-    // z from 20 on: the edges at z = 0 are behind the voxels in perspective, away from those at z = 32
+    // in perspective the edges at z = 0, behind the voxels, are away from those at z = 32
     const VoxelGrid wall = make_voxels(box({-32, -32, 20}, {96, 96, 4}), 1.0);
     const VoxelView view(context, Sources{&wall}, {}, progress);
     CameraView camera{.eye = {16.0, 16.0, 120.0}, .target = {16.0, 16.0, 0.0}};

@@ -4,19 +4,19 @@
 
 namespace heddle::viewer {
 
-/// GLSL, any stage: voxels in the driver's memory, as VoxelTables::bind has bound them: storage blocks 8
-/// to 13, uniform block 8. Levels count as the span that made them: the finest that is there is
-/// voxel_range.x, the coarsest voxel_range.y.
+/// GLSL, any stage: voxels in the driver's memory, as VoxelTables::bind has bound them: storage
+/// blocks 8 to 13, uniform block 8. Levels count as the span that made them: the finest that is
+/// there is voxel_range.x, the coarsest voxel_range.y.
 ///
-/// `bool voxel_at(vec3 place, int level, out vec3 axis, out float density)`: whether there is a voxel at
-/// a place in scene units; `axis` is the direction of its heaviest lobe (of a fiber's tangent or a
-/// surface's normal; unit, its sign means nothing), `density` the mean of its coverage over the three
-/// axes, in [0, 127/128]. Levels that are not there are taken for the nearest.
+/// `bool voxel_at(vec3 place, int level, out vec3 axis, out float density)`: whether there is a
+/// voxel at a place in scene units; `axis` is the direction of its heaviest lobe (of a fiber's
+/// tangent or a surface's normal; unit, its sign means nothing), `density` the mean of its coverage
+/// over the three axes, in [0, 127/128]. Levels that are not there are taken for the nearest.
 inline constexpr std::string_view kVoxelTableGlsl = R"(
 struct VoxelLevel {
     vec4 per;     // voxels a scene unit; w: longest edge, scene units
     vec4 shift;   // of voxel_middle from the table's corner, voxels; w: shortest edge, scene units
-    ivec4 corner; // voxel index at which the table starts; w: how often its edges double the finest's
+    ivec4 corner; // voxel index where the table starts; w: how often its edges double the finest's
     ivec4 cells;  // of 16^3 leaves in the table; w: its first in voxel_cells
     ivec4 lo;     // first leaf, from the corner
     ivec4 hi;     // last leaf, inclusive
@@ -26,12 +26,13 @@ layout(std140, binding = 8) uniform VoxelLevels {
     ivec4 voxel_range; // finest and coarsest level
     VoxelLevel voxel_levels[24];
 };
-layout(std430, binding = 8) readonly buffer VoxelCells { int voxel_cells[]; };            // -1: empty
-layout(std430, binding = 9) readonly buffer VoxelLeafTable { uint voxel_leaf_table[]; };  // 0: none
-layout(std430, binding = 10) readonly buffer VoxelLeaves { uint voxel_leaves[]; };        // 21 words a leaf
-layout(std430, binding = 11) readonly buffer VoxelDepths { uint voxel_depths[]; };        // and width
-layout(std430, binding = 12) readonly buffer VoxelColors { uint voxel_colors[]; };        // and axis x
-layout(std430, binding = 13) readonly buffer VoxelAxes { uint voxel_axes[]; }; // y, z, material, flags
+layout(std430, binding = 8) readonly buffer VoxelCells { int voxel_cells[]; }; // -1: empty
+layout(std430, binding = 9) readonly buffer VoxelLeafTable { uint voxel_leaf_table[]; }; // 0: none
+layout(std430, binding = 10) readonly buffer VoxelLeaves { uint voxel_leaves[]; }; // 21 words each
+layout(std430, binding = 11) readonly buffer VoxelDepths { uint voxel_depths[]; }; // and width
+layout(std430, binding = 12) readonly buffer VoxelColors { uint voxel_colors[]; }; // and axis x
+// axis y and z, material, flags
+layout(std430, binding = 13) readonly buffer VoxelAxes { uint voxel_axes[]; };
 
 const float kVoxelMaxDepth = 4.8520302; // preview::kMaxDepth
 
@@ -80,7 +81,8 @@ float voxel_density(vec3 depth) { return dot(vec3(1.0) - exp(-depth), vec3(1.0 /
 bool voxel_at(vec3 place, int level, out vec3 axis, out float density) {
     axis = vec3(0.0);
     density = 0.0;
-    int number = voxel_at_offset(place - voxel_middle.xyz, clamp(level, voxel_range.x, voxel_range.y));
+    int there = clamp(level, voxel_range.x, voxel_range.y);
+    int number = voxel_at_offset(place - voxel_middle.xyz, there);
     if (number < 0) return false;
     axis = voxel_axis(voxel_colors[number], voxel_axes[number]);
     density = voxel_density(voxel_depth(voxel_depths[number]));

@@ -18,17 +18,19 @@ inline constexpr int kMostVoxelLevels = 24; ///< as many as shaders have room fo
 /// The levels by pointer, for what takes them from anywhere.
 [[nodiscard]] std::vector<const VoxelSource*> sources_of(const VoxelLevels& levels);
 
-/// All levels of a volume in the driver's memory, each as preview::Scene has one: leaves found by index
-/// in two tables, 12 bytes a voxel. kVoxelTableGlsl reads them. Needs a current Context while it lives.
+/// All levels of a volume in the driver's memory, each as preview::Scene has one: leaves found by
+/// index in two tables, 12 bytes a voxel. kVoxelTableGlsl reads them. Needs a current Context while
+/// it lives.
 class VoxelTables {
 public:
-    /// Bytes are predicted before any are taken. Where they exceed a storage block, the finest levels are
-    /// left out: as few as may be. Reads each block twice, once of a level that is left out.
-    /// @param levels         finest first; edges of voxels double from one to the next, once or more
-    ///                       often; may be empty; not kept
+    /// Bytes are predicted before any are taken. Where they exceed a storage block, the finest
+    /// levels are left out: as few as may be. Reads each block twice, once of a level that is left
+    /// out.
+    /// @param levels         finest first; edges of voxels double from one to the next, once or
+    ///                       more often; may be empty; not kept
     /// @param storage_bytes  largest storage block that is planned for; 0: the driver's
-    /// @throws Error  InvalidArgument: edges do not double, over 24 levels; OutOfMemory: not even the
-    ///                coarsest fits; Device: too few storage blocks; Cancelled
+    /// @throws Error  InvalidArgument: edges do not double, over 24 levels; OutOfMemory: not even
+    ///                the coarsest fits; Device: too few storage blocks; Cancelled
     VoxelTables(const opengl::Context& context,
                 std::span<const VoxelSource* const> levels,
                 std::int64_t storage_bytes,
@@ -50,7 +52,8 @@ public:
     [[nodiscard]] const Vec3d& middle() const { return middle_; }
     /// Edges of a block, scene units.
     [[nodiscard]] Vec3d block_size() const;
-    /// Occupied cells of 32^3 voxels of level 0, even if that is left out: ascending x, then y, then z.
+    /// Occupied cells of 32^3 voxels of level 0, even if that is left out: ascending x, then y,
+    /// then z.
     [[nodiscard]] std::span<const Vec3i> blocks() const { return blocks_; }
 
 private:

@@ -172,6 +172,7 @@ void VoxelView::draw(const ViewTarget& target,
 void VoxelView::draw_blocks(const ViewTarget& target,
                             const CameraView& camera,
                             const VoxelLook& look) const {
+    check_look(look);
     if (scene_->tables.empty()) return;
     const EyeFrame eye(camera, target.width(), target.height(), 1.0);
     target.begin();

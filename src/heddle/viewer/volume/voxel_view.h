@@ -30,8 +30,8 @@ enum class VoxelColor : std::uint8_t {
 /// How voxels look.
 struct VoxelLook {
     VoxelColor color = VoxelColor::Shaded;
-    /// From the object to the light, any length but 0. None: at the eye, shaded as render_preview does,
-    /// without shadows.
+    /// From the object to the light, any length but 0. None: at the eye, shaded as render_preview
+    /// does, without shadows.
     std::optional<Vec3d> light = Vec3d{-0.5, 0.6, 1.0};
     bool shadows = true; ///< a cone towards the light for each clump of voxels that a ray meets
     int level = -1;      ///< everywhere; -1: the one whose edges are next above a pixel's width
@@ -47,7 +47,7 @@ struct VoxelViewOptions {
 };
 
 /// Voxels by ray casting: one ray a pixel, front to back through occupied leaves.
-///                                                              [LopezMoreno17, 3.6; docs/raster.md]
+///                                                            [LopezMoreno17, 3.6; docs/raster.md]
 class VoxelView {
 public:
     /// Takes the levels into the driver's memory.
@@ -61,8 +61,8 @@ public:
     VoxelView(const VoxelView&) = delete;
     VoxelView& operator=(const VoxelView&) = delete;
 
-    /// Draws over what the target holds, within its limit. Parallel rays have no beginning: voxels behind
-    /// the eye are seen as slices are. The lens is not used.
+    /// Draws over what the target holds, within its limit. Parallel rays have no beginning: voxels
+    /// behind the eye are seen as slices are. The lens is not used.
     /// @throws Error  InvalidArgument: a direction without length, a look out of range; Device
     void draw(const ViewTarget& target, const CameraView& camera, const VoxelLook& look) const;
 
@@ -71,8 +71,8 @@ public:
     void
     draw_blocks(const ViewTarget& target, const CameraView& camera, const VoxelLook& look) const;
 
-    /// The first occupied block under a pixel, counted in blocks of 32^3 of the finest voxels; none where
-    /// there is none. A block may be met where the ray passes its voxels by.
+    /// The first occupied block under a pixel, counted in blocks of 32^3 of the finest voxels; none
+    /// where there is none. A block may be met where the ray passes its voxels by.
     /// @param width, height  of the picture, pixels
     /// @param x, y           pixels from its upper left corner; a pixel's middle is at .5
     /// @throws Error  InvalidArgument: an eye at its target

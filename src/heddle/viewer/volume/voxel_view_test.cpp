@@ -230,6 +230,9 @@ TEST(VoxelView, WhatCannotBeShownIsOneLine) {
     EXPECT_EQ(draw({}, {.density_scale = 0.0}), ErrorCode::InvalidArgument);
     EXPECT_EQ(draw({}, {.level = -2}), ErrorCode::InvalidArgument);
     EXPECT_EQ(draw({}, {.level_offset = std::nan("")}), ErrorCode::InvalidArgument);
+    const ViewTarget target(8, 8);
+    EXPECT_EQ(code([&] { view.draw_blocks(target, {}, {.density_scale = -1.0}); }),
+              ErrorCode::InvalidArgument);
     progress.cancel();
     EXPECT_EQ(make({&grid}), ErrorCode::Cancelled);
 }

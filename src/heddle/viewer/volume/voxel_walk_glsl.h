@@ -4,9 +4,10 @@
 
 namespace heddle::viewer {
 
-/// GLSL: a camera whose rays start close to the voxels: an eye far away costs no bits of their places.
+/// GLSL: a camera whose rays start close to the voxels: an eye far away costs no bits of their
+/// places.
 inline constexpr std::string_view kVoxelEyeGlsl = R"(
-uniform vec3 screen;          // width and height, pixels; width of a pixel: scene units; not parallel: at 1
+uniform vec3 screen; // width and height, pixels; width of a pixel: scene units; not parallel: at 1
 uniform int parallel;         // rays
 uniform vec3 right, up, away; // axes, unit
 uniform vec3 start;           // of the ray through the picture's middle, from voxel_middle
@@ -26,12 +27,15 @@ VoxelRay voxel_ray(vec2 at) {
     return VoxelRay(start + near * aside, (away + aside) / slant, near * slant);
 }
 
-float pixel_width(VoxelRay ray, float t) { return parallel == 1 ? screen.z : screen.z * (ray.past + t); }
+float pixel_width(VoxelRay ray, float t) {
+    return parallel == 1 ? screen.z : screen.z * (ray.past + t);
+}
 )";
 
-/// GLSL, fragment: a ray through occupied leaves and their voxels, front to back; what voxels hide as in
-/// preview.cpp. Needs kVoxelTableGlsl, kVoxelEyeGlsl, a constant `white`, 1: `white_block` is solid, and these two, which see each voxel that hides
-/// something, `hidden` of the light that there was, and the end of each clump of them:
+/// GLSL, fragment: a ray through occupied leaves and their voxels, front to back; what voxels hide
+/// as in preview.cpp. Needs kVoxelTableGlsl, kVoxelEyeGlsl, a constant `white` (1: `white_block` is
+/// solid) and these two, which see each voxel that hides something, `hidden` of the light that
+/// there was, and the end of each clump of them:
 ///     void meet(int number, int level, ivec3 at, float hidden, float t);
 ///     void leave_clump(int level);
 inline constexpr std::string_view kVoxelWalkGlsl = R"(
@@ -161,13 +165,14 @@ Found step_on(inout Walk w, int level, float t_end) {
     ivec3 beside = clamp(ivec3(floor(origin + weight * leave)), first, last);
     w.at = mix(beside, behind, equal(ivec3(0, 1, 2), ivec3(axis)));
     w.t = max(w.t, leave);
-    w.inside = w.t < t_end && all(greaterThanEqual(w.at, table_lo)) && all(lessThanEqual(w.at, table_hi));
+    w.inside = w.t < t_end && all(greaterThanEqual(w.at, table_lo)) &&
+               all(lessThanEqual(w.at, table_hi));
     return found;
 }
 
-// One loop over what is empty, cells, leaves or voxels, within one over the voxels of a clump, within one
-// over clumps. A software driver runs what a branch guards for all its pixels, taken or not, and a loop
-// once at least: a loop for each of cells, leaves and voxels takes it more than twice as long.
+// One loop over what is empty, cells, leaves or voxels, within one over the voxels of a clump,
+// within one over clumps. A software driver runs what a branch guards for all its pixels, taken or
+// not, and a loop once at least: with loops for cells, leaves and voxels it takes twice as long.
 void walk_level(int level, float t, float t_end) {
     Walk w = start_level(level, t, t_end);
     float gap = kClumpGap * voxel_levels[level].per.w;
