@@ -148,6 +148,14 @@ void Context::read_limits() {
 
 Context::~Context() = default;
 
+void Context::make_current() const {
+    if (!handles_) return;
+    if (eglMakeCurrent(handles_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, handles_->context) !=
+        EGL_TRUE) {
+        fail("a context cannot be made current again");
+    }
+}
+
 bool Context::is_software() const {
     return driver_.find("llvmpipe") != std::string::npos ||
            driver_.find("softpipe") != std::string::npos;

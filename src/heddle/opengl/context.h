@@ -42,6 +42,9 @@ public:
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
 
+    /// Makes it current on this thread again, after another was: one that has its own window is not moved.
+    /// @throws Error  Device
+    void make_current() const;
     [[nodiscard]] const ContextLimits& limits() const { return limits_; }
     /// Name and version of the driver, for reports.
     [[nodiscard]] const std::string& driver() const { return driver_; }

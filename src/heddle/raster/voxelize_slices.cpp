@@ -176,6 +176,7 @@ struct SliceVoxelizer::Kept {
 
 SliceVoxelizer::Kept& SliceVoxelizer::open() {
     if (!kept_) kept_ = std::make_unique<Kept>(raster_);
+    kept_->driver.make_current(); // others may have been opened since
     return *kept_;
 }
 

@@ -46,7 +46,7 @@ struct RasterCounts {
 
 /// Voxelizes yarns and hair by OpenGL, one geometry after another: the driver's context, its programs,
 /// the memory of sums and, where the kinds of yarns stay the same, their sections are kept. To be used
-/// on one thread, and no other Context with it.
+/// on one thread.
 class SliceVoxelizer {
 public:
     /// Opens nothing yet.

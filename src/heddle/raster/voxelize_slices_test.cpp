@@ -128,14 +128,13 @@ TEST(VoxelizeSlices, FramesInOneVoxelizerHaveTheBitsOfEachAlone) {
     const Geometry frames[] = {straight_yarn({0.8f, 0.5f, 0.33f}, slice_yarn(0.06f)),
                                straight_yarn({0.3f, -0.5f, 0.7f}, slice_yarn(0.06f)),
                                straight_yarn({0.3f, -0.5f, 0.7f}, slice_yarn(0.05f, 60)), two};
-    std::vector<std::vector<Stored>> alone; // each in a context of its own
-    for (const Geometry& frame : frames) alone.push_back(stored(*draw(frame, options)));
     SliceVoxelizer voxelizer({});
     Progress silent;
-    for (std::size_t i = 0; i < alone.size(); ++i) {
-        const VoxelizePlan plan = plan_voxelize(frames[i], options);
-        ASSERT_GT(alone[i].size(), 100u);
-        EXPECT_TRUE(stored(*voxelizer.voxelize(frames[i], options, plan, silent)) == alone[i]) << i;
+    for (const Geometry& frame : frames) {
+        const std::vector<Stored> alone = stored(*draw(frame, options)); // in a context of its own
+        ASSERT_GT(alone.size(), 100u);
+        const VoxelizePlan plan = plan_voxelize(frame, options);
+        EXPECT_TRUE(stored(*voxelizer.voxelize(frame, options, plan, silent)) == alone);
     }
 }
 
