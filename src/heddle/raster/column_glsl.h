@@ -58,7 +58,12 @@ void main() { draw_pixel(ivec2(floor(gl_FragCoord.xy)) + across(view_lo)); }
 
 /// GLSL, compute, last: the same pixels, row by row of the rectangle.
 inline constexpr std::string_view kSlabLoopGlsl = R"(
-layout(std430, binding = 4) readonly buffer Draw { uint corners; uint listed; };
+layout(std430, binding = 4) buffer Draw { uint corners, listed, first, base, groups[3], most; };
+uniform int first_turn; // of kTurns; in the first, `most` becomes the most pixels of a slab
+
+// Pixels of an invocation in one dispatch: software drivers end a shader's loops after 65535 turns, all of
+// them counted together, without a word.
+const int kTurns = 64;
 
 float away_from_zero(float x) { return x < 0.0 ? min(x, -1e-6) : max(x, 1e-6); }
 
@@ -81,7 +86,11 @@ void main() {
     int end = min(int(ceil((r.middle.y + high) / px.y + 0.5)), view_end.y);
     float wide = min(r.size.x / max(e.x, 1e-6), r.size.y / max(e.y, 1e-6));
     int width = int(2.0 * wide / px.x) + 2;
-    for (int i = int(item() % kSlabLanes); i < (end - first) * width; i += int(kSlabLanes)) {
+    int total = max(end - first, 0) * width;
+    if (first_turn == 0) atomicMax(most, uint(total));
+    for (int turn = first_turn; turn < first_turn + kTurns; ++turn) {
+        int i = turn * int(kSlabLanes) + int(item() % kSlabLanes);
+        if (i >= total) break;
         int y = first + i / width;
         float left = r.middle.x + left_end(r, (float(y) + 0.5) * px.y - r.middle.y);
         int x = int(floor(left / px.x - 0.5)) + i % width;

@@ -66,7 +66,7 @@ BrickDrawer::BrickDrawer(const opengl::Context& context,
       slot_buffer_("slots of bricks", grid.size() * sizeof(std::uint32_t)),
       pool_(kit.pool(capacity_ * kBrickBytes)),
       list_("a batch's slices", most_slices(chunks) * sizeof(std::uint32_t)),
-      command_("a batch's draw", 7 * sizeof(std::uint32_t)) {
+      command_("a batch's draw", 8 * sizeof(std::uint32_t)) {
     check_last(chunks, kit.composition());
     grid.set_uniforms(kit.list());
 }
@@ -115,7 +115,7 @@ void BrickDrawer::set_slots(std::span<const TouchedBlock> blocks, const DrawnBat
 }
 
 void BrickDrawer::list_slices(const slice::SliceChunk& chunk) {
-    constexpr std::array<std::uint32_t, 7> kNone{4, 0, 0, 0, 0, 0, 1}; // as kListGlsl has it
+    constexpr std::array<std::uint32_t, 8> kNone{4, 0, 0, 0, 0, 0, 1, 0}; // as kListGlsl has it
     command_.write(std::as_bytes(std::span(kNone)));
     list_.bind_storage(2);
     command_.bind_storage(3);

@@ -56,6 +56,14 @@ void expect_same(const Geometry& geometry,
     EXPECT_TRUE(drawn == by(RasterPath::Compute)) << what; // not EQ: it would print them all
 }
 
+TEST(RasterPath, BothGiveTheSameBitsOfSlabsThatAreManyDispatches) {
+    // 120 subvoxels of radius: up to 10000 pixels a slab, with 150 fibers to be passed by each
+    const Geometry yarn = straight_yarn({0.8f, 0.5f, 0.33f}, slice_yarn(0.15f, 150));
+    VoxelizeOptions options = options_of(0.01);
+    options.bounds = Bounds{{0.0, -1.0, -1.0}, {0.3, 1.0, 1.0}};
+    expect_same(yarn, options, "thick");
+}
+
 TEST(RasterPath, BothGiveTheSameBitsInEveryComposition) {
     const Geometry yarn = tilted_yarn();
     Geometry cloth = generate({.kind = GenerateKind::Satin, .nx = 5, .ny = 5});

@@ -7,8 +7,10 @@
 #include <heddle/slice/slab_glsl.h>
 #include <heddle/slice/slice_glsl.h>
 
+#include <array>
 #include <cstddef>
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -16,6 +18,10 @@ namespace heddle::raster {
 namespace {
 
 constexpr std::size_t kGroupsOffset = 4 * sizeof(std::uint32_t); ///< in kListGlsl's Draw
+constexpr std::size_t kMostOffset = 7 * sizeof(std::uint32_t);
+constexpr std::uint32_t kSlabLanes =
+    8; ///< these two: as kSlabLanesGlsl and kSlabLoopGlsl have them
+constexpr std::uint32_t kTurns = 64;
 
 std::string join(std::initializer_list<std::string_view> parts) {
     std::string out;
@@ -61,11 +67,24 @@ void SlabPass::draw(const opengl::Buffer& command, const SlabView& view) const {
     for (std::int32_t axis = 0; axis < 3; ++axis) {
         program_.set("axis", axis);
         if (path_ == RasterPath::Compute) {
-            program_.dispatch_indirect(kGroupsOffset);
+            walk(command);
             continue;
         }
         frame_.bind(axis == 0 ? view.size.y : view.size.x, axis == 2 ? view.size.y : view.size.z);
         opengl::EmptyFrame::draw_indirect();
+    }
+}
+
+/// As many dispatches as the largest slab needs, which the first finds out.
+void SlabPass::walk(const opengl::Buffer& command) const {
+    std::array<std::uint32_t, 1> most{};
+    command.write(std::as_bytes(std::span(most)), kMostOffset);
+    for (std::uint32_t turn = 0; turn == 0 || turn * kSlabLanes < most[0]; turn += kTurns) {
+        program_.set("first_turn", static_cast<std::int32_t>(turn));
+        program_.dispatch_indirect(kGroupsOffset);
+        if (turn > 0) continue;
+        opengl::finish_writes();
+        command.read(std::as_writable_bytes(std::span(most)), kMostOffset);
     }
 }
 

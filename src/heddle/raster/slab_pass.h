@@ -31,6 +31,8 @@ public:
     void draw(const opengl::Buffer& command, const SlabView& view) const;
 
 private:
+    void walk(const opengl::Buffer& command) const;
+
     RasterPath path_;
     opengl::Program program_;
     opengl::EmptyFrame frame_;

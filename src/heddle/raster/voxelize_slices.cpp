@@ -13,8 +13,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numeric>
 #include <optional>
+#include <utility>
 
 namespace heddle::raster {
 namespace {
@@ -52,6 +52,14 @@ int weight_bits(const LatticeUnits& units,
     return static_cast<int>(std::clamp(std::floor(28.0 - std::log2(most)), -20.0, 20.0));
 }
 
+/// Least and largest radius of a set's curves, scene units.
+std::pair<float, float> radii_of(const CurveSet& set, const YarnType* yarn) {
+    if (yarn != nullptr && yarn->radius > 0.0f) return {yarn->radius, yarn->radius};
+    if (set.radius.empty()) return {set.default_radius, set.default_radius};
+    const auto [least, most] = std::minmax_element(set.radius.begin(), set.radius.end());
+    return {*least, *most};
+}
+
 /// Radius of the thinnest fiber, units.
 float thinnest_fiber(const Geometry& geometry,
                      const slice::SectionLayers& sections,
@@ -60,15 +68,33 @@ float thinnest_fiber(const Geometry& geometry,
     for (std::size_t s = 0; s < geometry.curves.size(); ++s) {
         const CurveSet& set = geometry.curves[s];
         const YarnType* yarn = geometry.yarn_of(set);
-        float radius = set.default_radius;
-        if (!set.radius.empty()) radius = *std::min_element(set.radius.begin(), set.radius.end());
-        if (yarn != nullptr && yarn->radius > 0.0f) radius = yarn->radius;
+        const float radius = radii_of(set, yarn).first;
         const float model = yarn == nullptr ? 1.0f : yarn->model_radius;
         for (std::uint32_t l = sections.first[s]; l < sections.first[s + 1]; ++l) {
             least = std::min(least, radius / model * sections.layers[l].fiber_radius);
         }
     }
     return std::max(least / static_cast<float>(units.unit), 1e-6f);
+}
+
+/// Slabs look at all bricks in a box around them in one loop, of which software drivers run 65535 turns.
+void check_thickness(const slice::SectionLayers& sections,
+                     const Geometry& geometry,
+                     const LatticeUnits& units) {
+    constexpr double kMostReach = 1000.0;
+    for (std::size_t s = 0; s < geometry.curves.size(); ++s) {
+        const CurveSet& set = geometry.curves[s];
+        const YarnType* yarn = geometry.yarn_of(set);
+        const float radius = radii_of(set, yarn).second;
+        const float model = yarn == nullptr ? 1.0f : yarn->model_radius;
+        const float extent = sections.layers[sections.first[s]].extent;
+        const double reach = static_cast<double>(radius / model * extent) / units.unit;
+        if (reach <= kMostReach) continue;
+        throw Error(ErrorCode::Unsupported,
+                    str("raster: a yarn reaches ", reach, " subvoxels from its centreline (limit ",
+                        kMostReach, ")"),
+                    "use larger voxels, or --backend sample");
+    }
 }
 
 void check_geometry(const Geometry& geometry) {
@@ -216,6 +242,7 @@ std::unique_ptr<VoxelSource> SliceVoxelizer::voxelize(const Geometry& geometry,
     const opengl::Context& driver = open().driver;
     kept_->update(geometry, options.seed);
     const slice::SectionLayers& sections = kept_->sections;
+    check_thickness(sections, geometry, context.units);
     const std::vector<slice::SliceChunk> chunks =
         slice::place_slices(driver, geometry, sections, context.units,
                             {.origin = grid.origin,

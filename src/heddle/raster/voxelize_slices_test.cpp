@@ -211,6 +211,10 @@ TEST(VoxelizeSlices, WhatCannotBeDrawnIsOneLine) {
     Geometry plied = straight_yarn({1.0f, 0.0f, 0.0f}, slice_yarn(0.06f));
     plied.yarns[0].model = YarnModel::Procedural;
     EXPECT_EQ(code(plied, options), ErrorCode::Unsupported);
+    VoxelizeOptions fine = options_of(0.0004); // a radius of 1200 subvoxels
+    fine.bounds = Bounds{{0.0, 0.0, 0.0}, {0.001, 0.001, 0.001}};
+    EXPECT_EQ(code(straight_yarn({1.0f, 0.0f, 0.0f}, slice_yarn(0.06f)), fine),
+              ErrorCode::Unsupported);
     // more subvoxels than pixels can number, more bricks than a table
     const LatticeUnits units(Lattice{});
     EXPECT_THROW(BrickGrid(units, {}, {600000, 0, 0}, {600001, 1, 1}), Error);

@@ -112,13 +112,16 @@ vec3 any_perpendicular(vec3 n) { // [Duff 2017]
 }
 )";
 
-/// GLSL: one curve an item: lengths, counts of slices and frames at its knots, one after the other.
+/// GLSL: one curve an item: lengths, counts of slices and frames at its knots, one after the other, as many
+/// as kSpansAtOnce in one dispatch: software drivers end a shader's loops after 65535 turns, without a word.
 inline constexpr std::string_view kCourseGlsl = R"(
 layout(std430, binding = 3) buffer Courses { Course courses[]; };
 layout(std430, binding = 4) buffer Lengths { double knot_length[]; };
 layout(std430, binding = 5) buffer Frames { Knot knots[]; };
 uniform uint curve_count;
+uniform uint first_span; // of kSpansAtOnce that are measured now
 
+const uint kSpansAtOnce = 16384u;
 const float kMostBend = 0.2;  // radians between neighbours
 const float kMostTurn = 0.4;  // radians of twist
 const double kMostSlices = 1.0e6; // of a span: more are refused
@@ -161,17 +164,24 @@ void main() {
         courses[item()] = Course(0.0LF, 0.0LF, 0.0LF, 0.0LF);
         return;
     }
+    if (first_span >= curve.spans) return; // all of it is measured
     float head = curve.yarn_radius > 0.0 ? curve.yarn_radius
                                          : points[knot_point(curve, 0u)].w;
     double per_unit = double(curve.model_radius / max(head, 1e-30));
-    Cubic cubic = span_cubic(curve, 0u);
-    vec3 tangent = tangent_at(cubic, 0.0);
+    Cubic cubic = span_cubic(curve, first_span == 0u ? 0u : first_span - 1u);
+    vec3 tangent = tangent_at(cubic, first_span == 0u ? 0.0 : 1.0);
     vec3 normal = any_perpendicular(tangent);
-    vec3 start = normal;
     double sum = 0.0LF;
     double slices = 0.0LF;
     double wanted = 0.0LF;
-    for (uint k = 0u; k < curve.spans; ++k) {
+    if (first_span > 0u) { // from where the part before it ended
+        normal = knots[curve.first_knot + first_span].normal;
+        sum = knot_length[curve.first_knot + first_span];
+        slices = courses[item()].slices - 1.0LF;
+        wanted = courses[item()].most;
+    }
+    uint end = min(first_span + kSpansAtOnce, curve.spans);
+    for (uint k = first_span; k < end; ++k) {
         knot_length[curve.first_knot + k] = sum;
         knots[curve.first_knot + k] = Knot(normal, uint(slices));
         cubic = span_cubic(curve, k);
@@ -186,8 +196,11 @@ void main() {
         normal = unit_or(normal - dot(normal, next) * next, any_perpendicular(next));
         tangent = next;
     }
-    knot_length[curve.first_knot + curve.spans] = sum;
-    knots[curve.first_knot + curve.spans] = Knot(normal, uint(slices));
+    knot_length[curve.first_knot + end] = sum;
+    knots[curve.first_knot + end] = Knot(normal, uint(slices));
+    courses[item()] = Course(sum, 0.0LF, slices + 1.0LF, wanted);
+    if (end < curve.spans) return;
+    vec3 start = knots[curve.first_knot].normal;
     double turns = double(curve.twist) / 6.283185307179586LF * per_unit; // per unit
     if ((curve.flags & kClosed) != 0u && sum > 0.0LF) { // whole turns, and what closes the frame
         float closing = atan(dot(cross(normal, start), tangent), dot(normal, start)) / 6.2831853;

@@ -11,7 +11,8 @@ namespace heddle::slice {
 namespace {
 
 constexpr double kMostSlices = 4294967295.0; ///< slices are numbered by 32 bits
-constexpr double kMostOfSpan = 1.0e6;        ///< as kCourseGlsl has it
+constexpr double kMostOfSpan = 1.0e6;        ///< these two: as kCourseGlsl has them
+constexpr std::uint32_t kSpansAtOnce = 16384;
 
 /// As kCurveGlsl has it.
 struct CurveRow {
@@ -151,6 +152,13 @@ void check_count(const std::vector<CourseRow>& courses, double most) {
                 "use larger voxels, a smaller twist, or --backend sample");
 }
 
+/// Of a curve, 1 at least.
+std::uint32_t most_spans(const std::vector<CurveRow>& curves) {
+    std::uint32_t most = 1;
+    for (const CurveRow& c : curves) most = std::max(most, c.spans);
+    return most;
+}
+
 template <typename T>
 opengl::Buffer upload(const char* name, const std::vector<T>& rows) {
     return {name, std::span<const T>(rows)};
@@ -215,8 +223,11 @@ std::vector<SliceChunk> place_slices(const opengl::Context& context,
     const auto& [measure, place] = own ? *own : *options.programs;
     const auto count = static_cast<std::uint32_t>(tables.curves.size());
     measure.set("curve_count", count);
-    measure.dispatch(count);
-    opengl::finish_writes();
+    for (std::uint32_t span = 0; span < most_spans(tables.curves); span += kSpansAtOnce) {
+        measure.set("first_span", span);
+        measure.dispatch(count);
+        opengl::finish_writes();
+    }
     std::vector<CourseRow> courses(count);
     course.read(std::as_writable_bytes(std::span(courses)));
     context.check("measure yarns");

@@ -47,6 +47,33 @@ Geometry ring(YarnType yarn, Basis basis = Basis::CatmullRom) {
     return geometry;
 }
 
+TEST(PlaceSlices, AYarnOfMorePointsThanOneDispatchMeasuresIsPlacedToItsEnd) {
+    constexpr int kPoints = 70000; // software drivers end a loop after 65535 turns
+    std::vector<Vec3f> points;
+    for (int i = 0; i < kPoints; ++i) {
+        const double a = 0.01 * i;
+        points.push_back(to_float({std::cos(a), std::sin(a), 1e-4 * i}));
+    }
+    CurveSet set;
+    heddle::test::add_curve(set, points);
+    set.default_radius = 0.05f;
+    Geometry geometry = heddle::test::geometry_of(set);
+    const std::vector<PlacedSlice> slices = place(geometry, units_of(0.05));
+    ASSERT_GT(slices.size(), static_cast<std::size_t>(kPoints - 3));
+    EXPECT_EQ(slices.back().flags, 1u);
+    const Vec3d end = to_double(points[kPoints - 2]); // the last but one: the last is a phantom
+    const Vec3d last = to_double(slices.back().center) * units_of(0.05).unit;
+    EXPECT_LT(length(last - end), 1e-3);
+    double farthest = 0.0;
+    for (std::size_t i = 1; i < slices.size(); ++i) {
+        const Vec3d step = to_double(slices[i].center - slices[i - 1].center);
+        farthest = std::max(farthest, length(step) * units_of(0.05).unit);
+        ASSERT_LT(std::fabs(static_cast<double>(dot(slices[i].normal, slices[i].tangent))), 1e-4)
+            << i;
+    }
+    EXPECT_LT(farthest, 0.0102) << "no gap where one dispatch ends and the next begins";
+}
+
 TEST(PlaceSlices, LieOnTheCurveInEvenStepsWithFramesOfRightAngles) {
     const LatticeUnits units = units_of(0.05);
     for (const Basis basis : {Basis::CatmullRom, Basis::CubicBSpline, Basis::Linear}) {
