@@ -115,6 +115,7 @@ void add_set(CurveTables& out,
 struct CurveRun {
     std::size_t first = 0, end = 0;
     std::uint64_t slices = 0;
+    std::uint64_t slabs = 0;
 };
 
 std::vector<CurveRun>
@@ -132,6 +133,7 @@ split_runs(const CurveTables& tables, const std::vector<CourseRow>& courses, std
         if (!same || runs.back().slices + count > most) runs.push_back({.first = c, .end = c});
         runs.back().end = c + 1;
         runs.back().slices += count;
+        runs.back().slabs += count > 0 ? count - 1 : 0;
     }
     return runs;
 }
@@ -247,6 +249,7 @@ std::vector<SliceChunk> place_slices(const opengl::Context& context,
         if (run.slices == 0) continue;
         SliceChunk chunk{.slices = opengl::Buffer("slices", run.slices * sizeof(PlacedSlice)),
                          .count = static_cast<std::uint32_t>(run.slices),
+                         .slabs = static_cast<std::uint32_t>(run.slabs),
                          .first = first[run.first],
                          .material = tables.materials[run.first]};
         chunk.slices.bind_storage(7);

@@ -31,6 +31,7 @@ static_assert(sizeof(PlacedSlice) == 64, "as slice_glsl.h has it");
 struct SliceChunk {
     opengl::Buffer slices;
     std::uint32_t count = 0;
+    std::uint32_t slabs = 0; ///< stretches between two slices of a yarn
     std::uint32_t first = 0; ///< number of its first slice over all chunks
     std::uint32_t material = 0;
 };

@@ -14,12 +14,6 @@ std::uint32_t most_slices(const std::vector<slice::SliceChunk>& chunks) {
     return most;
 }
 
-std::uint32_t count_slabs(const slice::SliceChunk& chunk) {
-    const std::vector<slice::PlacedSlice> slices = slice::read_slices(chunk);
-    return static_cast<std::uint32_t>(std::count_if(
-        slices.begin(), slices.end(), [](const slice::PlacedSlice& s) { return s.flags == 0; }));
-}
-
 } // namespace
 
 SeenSlices::SeenSlices(std::vector<slice::SliceChunk> chunks)
@@ -27,9 +21,7 @@ SeenSlices::SeenSlices(std::vector<slice::SliceChunk> chunks)
       capacity_(most_slices(chunks_)),
       sort_(capacity_),
       seen_("slices in view", capacity_ * sizeof(slice::PlacedSlice)),
-      program_(opengl::Program::compute("see slices", slice::kSliceGlsl, kSeeGlsl)) {
-    for (const slice::SliceChunk& chunk : chunks_) slabs_.push_back(count_slabs(chunk));
-}
+      program_(opengl::Program::compute("see slices", slice::kSliceGlsl, kSeeGlsl)) {}
 
 std::int64_t SeenSlices::slice_count() const {
     std::int64_t sum = 0;
@@ -59,7 +51,7 @@ std::uint32_t SeenSlices::see(std::size_t chunk, const EyeFrame& eye, Vec3d midd
     }
     seen_.bind_storage(0);
     sort_.values().bind_storage(2);
-    return slabs_[chunk];
+    return chunks_[chunk].slabs;
 }
 
 } // namespace heddle::viewer

@@ -36,8 +36,7 @@ public:
 
 private:
     std::vector<slice::SliceChunk> chunks_;
-    std::vector<std::uint32_t> slabs_; ///< by chunk
-    std::uint32_t capacity_;           ///< slices of the largest chunk
+    std::uint32_t capacity_; ///< slices of the largest chunk
     RadixSort sort_;
     opengl::Buffer seen_;
     opengl::Program program_;
