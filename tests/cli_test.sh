@@ -11,11 +11,19 @@ wrong() {
     echo "FAILED: $*" >&2
     failures=$((failures + 1))
 }
+# Mesa's threads may end while LeakSanitizer looks at them, and then it fails (1 run in 30): leaks of what draws are
+# looked for by the rooms' own tests.
+heddle() {
+    case " $* " in
+    *" view "* | *" raster "*) ASAN_OPTIONS="${ASAN_OPTIONS:-}:detect_leaks=0" "$heddle" "$@" ;;
+    *) "$heddle" "$@" ;;
+    esac
+}
 # fails CODE TEXT ARGUMENT...: exit code CODE, nothing on stdout, one line on stderr that holds TEXT
 fails() {
     local code=$1 text=$2
     shift 2
-    "$heddle" "$@" >out.txt 2>err.txt
+    heddle "$@" >out.txt 2>err.txt
     local status=$?
     [ $status -eq "$code" ] || wrong "exit code $status, not $code: heddle $* ($(cat err.txt))"
     [ ! -s out.txt ] || wrong "an error printed to stdout: heddle $*"
@@ -24,7 +32,7 @@ fails() {
 }
 # works ARGUMENT...: exit code 0, nothing on stderr but notes; stdout is in out.txt
 works() {
-    "$heddle" "$@" >out.txt 2>err.txt || wrong "exit code $?: heddle $*: $(cat err.txt)"
+    heddle "$@" >out.txt 2>err.txt || wrong "exit code $?: heddle $*: $(cat err.txt)"
     ! grep -qv '^note: ' err.txt || wrong "words on stderr: heddle $*: $(cat err.txt)"
 }
 # json KEY: prints the value of out.txt's key
