@@ -100,6 +100,9 @@ void Session::set(const Settings& settings) {
     next.yarns.resize(kinds_.size());
     if (next.show == Show::Voxels && !has_voxels()) next.show = Show::Slices;
     if (next.show == Show::Slices && !has_slices()) next.show = Show::Voxels;
+    if (next.slices.color == SliceColor::Grid && !has_voxels()) {
+        next.slices.color = SliceColor::Shaded;
+    }
     if (slices_ && next.yarns != settings_.yarns) {
         const bool placed =
             attempt([&] { slices_->place(edited(*subject_.geometry, next.yarns)); });
