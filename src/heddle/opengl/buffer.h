@@ -6,7 +6,8 @@
 
 namespace heddle::opengl {
 
-/// Bytes in the driver's memory that shaders read and write. Needs a current Context while it lives.
+/// Bytes in the driver's memory that shaders read and write. Needs a current Context while it
+/// lives.
 class Buffer {
 public:
     /// @param name  what it holds, for messages

@@ -63,7 +63,8 @@ struct Context::Handles {
         if (display == EGL_NO_DISPLAY) return;
         eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
         if (context != EGL_NO_CONTEXT) eglDestroyContext(display, context);
-        // the display stays: it belongs to the process, and ending it unloads a driver that others use
+        // the display stays: it belongs to the process, and ending it unloads a driver that others
+        // use
         display = EGL_NO_DISPLAY;
         context = EGL_NO_CONTEXT;
     }

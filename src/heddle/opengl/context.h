@@ -28,9 +28,9 @@ struct LostContext : Error {
     using Error::Error;
 };
 
-/// OpenGL without a window or a display, by EGL: surfaceless where the driver has it (Mesa), else on
-/// the first EGL device that gives a context. Current on the thread that made it, which alone may use
-/// it and all that is made in it.
+/// OpenGL without a window or a display, by EGL: surfaceless where the driver has it (Mesa), else
+/// on the first EGL device that gives a context. Current on the thread that made it, which alone
+/// may use it and all that is made in it.
 class Context {
 public:
     /// @throws Error  Device: no libEGL, no driver, or one below the version asked for
@@ -42,7 +42,8 @@ public:
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
 
-    /// Makes it current on this thread again, after another was: one that has its own window is not moved.
+    /// Makes it current on this thread again, after another was: one that has its own window is not
+    /// moved.
     /// @throws Error  Device
     void make_current() const;
     [[nodiscard]] const ContextLimits& limits() const { return limits_; }

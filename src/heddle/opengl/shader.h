@@ -12,8 +12,8 @@ namespace heddle::opengl {
 class Program {
 public:
     /// A compute shader in groups of 64. Before the source, which may come in two parts, stand
-    /// `#version 450 core`, the group's size and `uint item()`, the number of the invocation's item;
-    /// it may be past the last.
+    /// `#version 450 core`, the group's size and `uint item()`, the number of the invocation's
+    /// item; it may be past the last.
     /// @param name  for messages
     /// @throws Error  Internal: the driver's first line on what it refuses
     [[nodiscard]] static Program

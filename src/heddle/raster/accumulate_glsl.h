@@ -13,7 +13,8 @@ uint column_bit(ivec3 sub) {
                           : sub.y * subvoxels + sub.x);
 }
 
-// Subvoxels of the column along z whose centres lie in [from, to), subvoxels from the voxel's corner.
+// Subvoxels of the column along z whose centres lie in [from, to), subvoxels from the voxel's
+// corner.
 void mark_subvoxels(uint words, ivec3 sub, float from, float to) {
     int first = max(int(ceil(from - 0.5)), 0);
     int last = min(int(ceil(to - 0.5)) - 1, subvoxels - 1);
@@ -31,7 +32,9 @@ void add_run(ivec2 pixel, float from, float to) {
     float deep = edge[axis] * float(subvoxels);
     int first = int(floor(from / deep));
     int last = int(ceil(to / deep)) - 1;
-    ivec3 at = axis == 0 ? ivec3(0, pixel) : axis == 1 ? ivec3(pixel.x, 0, pixel.y) : ivec3(pixel, 0);
+    ivec3 at = axis == 0   ? ivec3(0, pixel)
+               : axis == 1 ? ivec3(pixel.x, 0, pixel.y)
+                           : ivec3(pixel, 0);
     int shift = subvoxels == 8 ? 3 : subvoxels == 4 ? 2 : subvoxels == 2 ? 1 : 0;
     ivec3 sub = at & (subvoxels - 1);
     ivec3 voxel = at >> shift;
@@ -88,7 +91,8 @@ void draw_pixel(ivec2 pixel) {
     float least = clamp(0.25 * sizes.y * place_a.w, 0.02, 0.5);
     March m = March(range.x, 0.0, 0.0, range.x);
     m.d = signed_depth(m.t);
-    // a run an iteration: where many rays go side by side, they wait for each other at its end alone
+    // a run an iteration: where many rays go side by side, they wait for each other at its end
+    // alone
     for (int run = 0; run < 1024 && m.t < range.y; ++run) {
         if (m.d > 0.0) advance(m, 1.0, range.y, speed, least);
         if (m.t >= range.y) break;

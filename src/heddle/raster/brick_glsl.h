@@ -4,8 +4,8 @@
 
 namespace heddle::raster {
 
-/// GLSL: the lattice, and which bricks of 8 x 8 x 8 voxels the stretch between two slices may touch.
-/// Voxels and bricks are counted from the origin. Needs kSpanGlsl.
+/// GLSL: the lattice, and which bricks of 8 x 8 x 8 voxels the stretch between two slices may
+/// touch. Voxels and bricks are counted from the origin. Needs kSpanGlsl.
 inline constexpr std::string_view kBrickGlsl = R"(
 uniform ivec3 voxel_lo;    // [lo, hi)
 uniform ivec3 voxel_hi;
@@ -60,14 +60,15 @@ void main() {
 }
 )";
 
-/// GLSL, compute: invocations that share a stretch of a list. Here 8 are the fastest: a vector of the
-/// software driver. Where a slab is a few pixels, most of 32 would have none.
+/// GLSL, compute: invocations that share a stretch of a list. Here 8 are the fastest: a vector of
+/// the software driver. Where a slab is a few pixels, most of 32 would have none.
 inline constexpr std::string_view kSlabLanesGlsl = R"(
 const uint kSlabLanes = 8u;
 )";
 
 /// GLSL: one slice an item; lists those whose stretch may touch a brick of the batch, for an
-/// indirect draw of four corners each, or groups of kSlabLanes invocations each. Needs kSlabLanesGlsl.
+/// indirect draw of four corners each, or groups of kSlabLanes invocations each. Needs
+/// kSlabLanesGlsl.
 inline constexpr std::string_view kListGlsl = R"(
 layout(std430, binding = 1) readonly buffer Slots { uint slot_of[]; };
 layout(std430, binding = 2) writeonly buffer List { uint list[]; };

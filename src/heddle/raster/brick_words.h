@@ -8,7 +8,8 @@
 
 namespace heddle::raster {
 
-/// 32-bit words of a voxel's sums in the driver's memory, and of a brick's 512 voxels (slab_glsl.h).
+/// 32-bit words of a voxel's sums in the driver's memory, and of a brick's 512 voxels
+/// (slab_glsl.h).
 constexpr std::size_t kVoxelWords = 32;
 constexpr std::size_t kBrickWords = 512 * kVoxelWords;
 
@@ -30,8 +31,8 @@ void add_brick(std::span<const std::uint32_t> words,
                Vec3i corner,
                BlockSums& sums);
 
-/// Bits [0, columns^2) of which the first `count` in a fixed order that spreads them evenly are set:
-/// what stands for a density that knows no columns. `columns` is 1, 2, 4 or 8.
+/// Bits [0, columns^2) of which the first `count` in a fixed order that spreads them evenly are
+/// set: what stands for a density that knows no columns. `columns` is 1, 2, 4 or 8.
 [[nodiscard]] std::uint64_t spread_columns(int count, int columns);
 
 } // namespace heddle::raster

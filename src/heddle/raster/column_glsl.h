@@ -4,8 +4,8 @@
 
 namespace heddle::raster {
 
-/// GLSL, all stages: the stretch seen along `axis`, as a rectangle that holds it. Needs kStretchGlsl,
-/// in fragments kSlabGlsl.
+/// GLSL, all stages: the stretch seen along `axis`, as a rectangle that holds it. Needs
+/// kStretchGlsl, in fragments kSlabGlsl.
 inline constexpr std::string_view kRectangleGlsl = R"(
 uniform int axis;
 uniform ivec3 view_lo; // subvoxels
@@ -16,8 +16,8 @@ ivec2 across(ivec3 v) { return axis == 0 ? v.yz : axis == 1 ? v.xz : v.xy; }
 
 struct Rectangle { vec2 middle, way, size; }; // units; size: half, along the way and square to it
 
-// Drawn are the pixels in the rectangle of the first pad. What finds pixels takes the second, larger
-// by more than what it rounds: so every way of finding them draws the same.
+// Drawn are the pixels in the rectangle of the first pad. What finds pixels takes the second,
+// larger by more than what it rounds: so every way of finding them draws the same.
 const float kDrawnPad = 0.5; // longest edges of a subvoxel
 const float kFoundPad = 0.625;
 
@@ -61,8 +61,8 @@ inline constexpr std::string_view kSlabLoopGlsl = R"(
 layout(std430, binding = 4) buffer Draw { uint corners, listed, first, base, groups[3], most; };
 uniform int first_turn; // of kTurns; in the first, `most` becomes the most pixels of a slab
 
-// Pixels of an invocation in one dispatch: software drivers end a shader's loops after 65535 turns, all of
-// them counted together, without a word.
+// Pixels of an invocation in one dispatch: software drivers end a shader's loops after 65535 turns,
+// all of them counted together, without a word.
 const int kTurns = 64;
 
 float away_from_zero(float x) { return x < 0.0 ? min(x, -1e-6) : max(x, 1e-6); }
@@ -141,8 +141,9 @@ uint words_of(ivec3 voxel) {
     return ((slot - 1u) * 512u + uint((c.x * 8 + c.y) * 8 + c.z)) * kWords;
 }
 
-// Words of a voxel: 0 to 5 columns (or 0 and 1 what a density is made of), 6 to 21 subvoxels, 22 to 26 the
-// moment but zz (the weight is its trace), 27 the weight, 28 to 30 what the colour lacks of white.
+// Words of a voxel: 0 to 5 columns (or 0 and 1 what a density is made of), 6 to 21 subvoxels, 22 to
+// 26 the moment but zz (the weight is its trace), 27 the weight, 28 to 30 what the colour lacks of
+// white.
 void add_direction(uint words, vec3 d, int weight, vec3 color) {
     float w = float(weight);
     atomicAdd(pool[words + 22u], uint(int(round(w * d.x * d.x))));

@@ -30,7 +30,9 @@ void draw_pixel(ivec2 pixel) {
     vec2 range = start_column(pixel);
     if (!(range.x < range.y)) return;
     int shift = subvoxels == 8 ? 3 : subvoxels == 4 ? 2 : subvoxels == 2 ? 1 : 0;
-    ivec3 at = axis == 0 ? ivec3(0, pixel) : axis == 1 ? ivec3(pixel.x, 0, pixel.y) : ivec3(pixel, 0);
+    ivec3 at = axis == 0   ? ivec3(0, pixel)
+               : axis == 1 ? ivec3(pixel.x, 0, pixel.y)
+                           : ivec3(pixel, 0);
     int first = int(floor(range.x / edge[axis]));
     int last = int(ceil(range.y / edge[axis])) - 1;
     for (int k = first; k <= last; ++k) {

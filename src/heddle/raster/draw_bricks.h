@@ -45,8 +45,8 @@ public:
                 std::span<const slice::SliceChunk> chunks,
                 const DrawOptions& options);
 
-    /// Draws as many blocks from `begin` on as memory and the driver's largest view take, one at least.
-    /// Where no path is chosen yet, tries both on a few blocks and chooses the faster.
+    /// Draws as many blocks from `begin` on as memory and the driver's largest view take, one at
+    /// least. Where no path is chosen yet, tries both on a few blocks and chooses the faster.
     [[nodiscard]] DrawnBatch draw(std::span<const TouchedBlock> blocks, std::size_t begin);
 
 private:

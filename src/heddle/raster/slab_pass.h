@@ -16,8 +16,9 @@ struct SlabView {
     Vec3i lo, size;
 };
 
-/// Draws listed slabs along three axes into the sums of bricks: by fragments of quads, or by compute
-/// invocations that walk over the same pixels. Both run one text for a pixel. Needs a current Context.
+/// Draws listed slabs along three axes into the sums of bricks: by fragments of quads, or by
+/// compute invocations that walk over the same pixels. Both run one text for a pixel. Needs a
+/// current Context.
 class SlabPass {
 public:
     /// @param path  Fragment or Compute
@@ -38,8 +39,8 @@ private:
     opengl::EmptyFrame frame_;
 };
 
-/// What slabs are drawn with, kept from one geometry to the next: programs, each made when it is first
-/// asked for, and the memory of their sums.
+/// What slabs are drawn with, kept from one geometry to the next: programs, each made when it is
+/// first asked for, and the memory of their sums.
 class SlabKit {
 public:
     /// @param path  Auto: what is faster on a software driver; on another it is left open
@@ -51,7 +52,8 @@ public:
     /// Fragment or Compute; Auto until one is chosen.
     [[nodiscard]] RasterPath path() const { return path_; }
     void choose(RasterPath path) { path_ = path; }
-    /// Memory for sums, `bytes` or up to twice as many. A reference from an earlier call is no longer good.
+    /// Memory for sums, `bytes` or up to twice as many. A reference from an earlier call is no
+    /// longer good.
     /// @throws Error  OutOfMemory
     [[nodiscard]] const opengl::Buffer& pool(std::size_t bytes);
 

@@ -77,7 +77,8 @@ float thinnest_fiber(const Geometry& geometry,
     return std::max(least / static_cast<float>(units.unit), 1e-6f);
 }
 
-/// Slabs look at all bricks in a box around them in one loop, of which software drivers run 65535 turns.
+/// Slabs look at all bricks in a box around them in one loop, of which software drivers run 65535
+/// turns.
 void check_thickness(const slice::SectionLayers& sections,
                      const Geometry& geometry,
                      const LatticeUnits& units) {

@@ -10,7 +10,7 @@
 
 namespace heddle::raster {
 
-/// How fragments of slices that meet in a voxel become its density.             [LopezMoreno17, 3.5]
+/// How fragments of slices that meet in a voxel become its density.           [LopezMoreno17, 3.5]
 enum class Composition : std::uint8_t {
     Last,      ///< alpha of the highest slice's highest subvoxel: the paper's, the same every run
     Average,   ///< mean alpha of all fragments, clear ones too
@@ -44,9 +44,9 @@ struct RasterCounts {
     double fit_seconds = 0.0;           ///< sums to voxels, and levels
 };
 
-/// Voxelizes yarns and hair by OpenGL, one geometry after another: the driver's context, its programs,
-/// the memory of sums and, where the kinds of yarns stay the same, their sections are kept. To be used
-/// on one thread.
+/// Voxelizes yarns and hair by OpenGL, one geometry after another: the driver's context, its
+/// programs, the memory of sums and, where the kinds of yarns stay the same, their sections are
+/// kept. To be used on one thread.
 class SliceVoxelizer {
 public:
     /// Opens nothing yet.
@@ -55,12 +55,13 @@ public:
     SliceVoxelizer(const SliceVoxelizer&) = delete;
     SliceVoxelizer& operator=(const SliceVoxelizer&) = delete;
 
-    /// Slices seen along three axes, one column of subvoxels a pixel, into integer sums that neither the
-    /// order of drawing nor what was drawn before shows in.         [LopezMoreno17, 3; docs/raster.md]
+    /// Slices seen along three axes, one column of subvoxels a pixel, into integer sums that
+    /// neither the order of drawing nor what was drawn before shows in.
+    ///   [LopezMoreno17, 3; docs/raster.md]
     /// @param plan     of plan_voxelize; grid, region and spool are taken from it
     /// @param visitor  as for voxelize
-    /// @throws Error   Device, OutOfMemory: see Context; Unsupported: meshes, a procedural yarn, more
-    ///                 bricks than a buffer's table holds; as plan_voxelize; Cancelled
+    /// @throws Error   Device, OutOfMemory: see Context; Unsupported: meshes, a procedural yarn,
+    ///                 more bricks than a buffer's table holds; as plan_voxelize; Cancelled
     [[nodiscard]] std::unique_ptr<VoxelSource> voxelize(const Geometry& geometry,
                                                         const VoxelizeOptions& options,
                                                         const VoxelizePlan& plan,
@@ -68,8 +69,9 @@ public:
                                                         BlockVisitor* visitor = nullptr,
                                                         RasterCounts* counts = nullptr);
 
-    /// What drawing takes beside `plan`, bytes: sums on the driver and read back, slices, and the driver itself.
-    /// All of it where the driver's memory is the host's; else what is read back. Opens the context.
+    /// What drawing takes beside `plan`, bytes: sums on the driver and read back, slices, and the
+    /// driver itself. All of it where the driver's memory is the host's; else what is read back.
+    /// Opens the context.
     /// @throws Error  Device
     [[nodiscard]] std::int64_t predict_bytes(const Geometry& geometry,
                                              const VoxelizeOptions& options,

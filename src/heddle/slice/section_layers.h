@@ -7,7 +7,8 @@
 
 namespace heddle::slice {
 
-/// A yarn's section as shaders read it: two square images over [-extent, extent]^2, rows from below.
+/// A yarn's section as shaders read it: two square images over [-extent, extent]^2, rows from
+/// below.
 struct SectionLayer {
     float extent = 0.0f;             ///< model units; no fiber reaches past it
     float fiber_radius = 0.0f;       ///< model units
@@ -17,7 +18,8 @@ struct SectionLayer {
 };
 
 /// The sections of all curves of a geometry: one for each kind of yarn and of plain fiber, and of
-/// slices that many yarns share a few, as the fibers that stand for a slice are drawn anew for each.
+/// slices that many yarns share a few, as the fibers that stand for a slice are drawn anew for
+/// each.
 struct SectionLayers {
     std::int32_t size = 0; ///< texels along a side, the same for all
     std::vector<SectionLayer> layers;

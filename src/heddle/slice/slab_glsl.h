@@ -8,7 +8,8 @@ namespace heddle::slice {
 /// fragments are then globals.
 inline constexpr std::string_view kSlabsInComputeGlsl = "#define SLABS_IN_COMPUTE\n";
 
-/// GLSL, vertex and compute: the stretch between two slices, as its pixels need it. Needs kSpanGlsl.
+/// GLSL, vertex and compute: the stretch between two slices, as its pixels need it. Needs
+/// kSpanGlsl.
 inline constexpr std::string_view kStretchGlsl = R"(
 layout(std430, binding = 2) readonly buffer List { uint list[]; };
 #ifdef SLABS_IN_COMPUTE
@@ -51,8 +52,8 @@ vec2 corner() {
 #endif
 )";
 
-/// GLSL, fragment and compute: a ray cut to a stretch; `local_at` is where it passes the section. Needs
-/// kSpanGlsl, in compute kStretchGlsl too.
+/// GLSL, fragment and compute: a ray cut to a stretch; `local_at` is where it passes the section.
+/// Needs kSpanGlsl, in compute kStretchGlsl too.
 inline constexpr std::string_view kSlabGlsl = R"(
 layout(binding = 0) uniform sampler2DArray section_distance;
 layout(binding = 1) uniform sampler2DArray section_color;
@@ -73,7 +74,8 @@ vec3 way;         // unit
 vec2 plane_a;     // height over a's plane is plane_a.x + plane_a.y t
 vec2 plane_b;
 
-struct Local { vec2 at; float scale; float part; float rise; vec3 normal, binormal; }; // at: model units
+// A place on the section (`at`: model units), and how far it is from slice a to b (`part`: 0 to 1).
+struct Local { vec2 at; float scale; float part; float rise; vec3 normal, binormal; };
 
 vec2 plane_of(vec3 center, vec3 tangent) {
     return vec2(dot(tangent, ray - center), dot(tangent, way));
@@ -147,7 +149,8 @@ vec3 direction_of(Local l) {
 }
 
 vec3 color_of(Local l) {
-    return textureLod(section_color, layer_place(l.at), 0.0).rgb * unpackUnorm4x8(uint(normal_b.w)).rgb;
+    vec3 yarn = unpackUnorm4x8(uint(normal_b.w)).rgb;
+    return textureLod(section_color, layer_place(l.at), 0.0).rgb * yarn;
 }
 )";
 

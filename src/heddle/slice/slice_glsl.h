@@ -22,7 +22,8 @@ vec2 fiber_step(vec2 at, float turn) {
     return 2.0 * sin(0.5 * turn) * vec2(-at.y, at.x);
 }
 
-// Unit direction of the fiber at `at` (units, in the section's frame), where slices are `rise` apart.
+// Unit direction of the fiber at `at` (units, in the section's frame), where slices are `rise`
+// apart.
 vec3 fiber_direction(vec2 at, float turn, float rise, vec3 normal, vec3 binormal, vec3 tangent) {
     vec2 step_in_plane = fiber_step(at, turn);
     vec3 d = step_in_plane.x * normal + step_in_plane.y * binormal + max(rise, 1e-6) * tangent;
@@ -55,7 +56,7 @@ const uint kLinear = 2u;
 const uint kBSpline = 4u;
 const uint kColored = 8u;
 struct Knot { vec3 normal; uint before; }; // before: slices of its curve up to it
-struct Course { double length; double turns; double slices; double most; }; // most: of a span, wanted
+struct Course { double length; double turns; double slices; double most; }; // most: wanted of a span
 
 layout(std430, binding = 0) readonly buffer Points { vec4 points[]; };
 layout(std430, binding = 1) readonly buffer Colors { uint colors[]; };
@@ -112,8 +113,9 @@ vec3 any_perpendicular(vec3 n) { // [Duff 2017]
 }
 )";
 
-/// GLSL: one curve an item: lengths, counts of slices and frames at its knots, one after the other, as many
-/// as kSpansAtOnce in one dispatch: software drivers end a shader's loops after 65535 turns, without a word.
+/// GLSL: one curve an item: lengths, counts of slices and frames at its knots, one after the other,
+/// as many as kSpansAtOnce in one dispatch: software drivers end a shader's loops after 65535
+/// turns, without a word.
 inline constexpr std::string_view kCourseGlsl = R"(
 layout(std430, binding = 3) buffer Courses { Course courses[]; };
 layout(std430, binding = 4) buffer Lengths { double knot_length[]; };
@@ -261,7 +263,8 @@ void main() {
     float t = float(local - before) / float(count);
     Cubic cubic = span_cubic(curve, k);
     vec3 tangent = tangent_at(cubic, t);
-    vec3 lerped = mix(knots[curve.first_knot + k].normal, knots[curve.first_knot + k + 1u].normal, t);
+    uint knot = curve.first_knot + k;
+    vec3 lerped = mix(knots[knot].normal, knots[knot + 1u].normal, t);
     vec3 normal = unit_or(lerped - dot(lerped, tangent) * tangent, any_perpendicular(tangent));
     vec3 binormal = cross(tangent, normal);
     double s0 = knot_length[curve.first_knot + k];

@@ -53,13 +53,14 @@ struct PlaceOptions {
     const PlacePrograms* programs = nullptr; ///< null: they are compiled for this call
 };
 
-/// About how many slices place_slices would place: by chords between points, without what bends add.
+/// About how many slices place_slices would place: by chords between points, without what bends
+/// add.
 [[nodiscard]] std::int64_t
 estimate_slices(const Geometry& geometry, const LatticeUnits& units, const PlaceOptions& options);
 
-/// Resamples all curves on the driver: slices at most `spacing` apart, at most .2 radians of bend and
-/// .4 of twist between neighbours, frames carried along without turn and then twisted; over a closed
-/// yarn the twist is whole turns. One slice more than the spaces between them.
+/// Resamples all curves on the driver: slices at most `spacing` apart, at most .2 radians of bend
+/// and .4 of twist between neighbours, frames carried along without turn and then twisted; over a
+/// closed yarn the twist is whole turns. One slice more than the spaces between them.
 /// @throws Error  InvalidArgument: more slices than `most_slices`; OutOfMemory
 [[nodiscard]] std::vector<SliceChunk> place_slices(const opengl::Context& context,
                                                    const Geometry& geometry,

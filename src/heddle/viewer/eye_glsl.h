@@ -13,13 +13,15 @@ void main() {
 
 /// GLSL: the ray of a pixel, in the eye's axes.
 inline constexpr std::string_view kEyeGlsl = R"(
-uniform vec3 screen;  // width and height, pixels; width of a pixel: units; not parallel: at distance 1
+uniform vec3 screen;  // width and height, pixels; width of a pixel, units; not parallel: at 1
 uniform int parallel; // rays
 
-vec3 ray_from(vec2 at) { return parallel == 1 ? vec3((at - 0.5 * screen.xy) * screen.z, 0.0) : vec3(0.0); }
+vec2 aside_of(vec2 at) { return (at - 0.5 * screen.xy) * screen.z; }
+
+vec3 ray_from(vec2 at) { return parallel == 1 ? vec3(aside_of(at), 0.0) : vec3(0.0); }
 
 vec3 ray_way(vec2 at) {
-    return parallel == 1 ? vec3(0.0, 0.0, 1.0) : normalize(vec3((at - 0.5 * screen.xy) * screen.z, 1.0));
+    return parallel == 1 ? vec3(0.0, 0.0, 1.0) : normalize(vec3(aside_of(at), 1.0));
 }
 
 float pixel_width(float t) { return parallel == 1 ? screen.z : screen.z * t; }

@@ -25,8 +25,8 @@ struct Orbit {
     /// All of a ball is in the picture, from any side.
     /// @param aspect  width over height
     void frame(const Ball& ball, double aspect);
-    /// Turns what is seen to the right, as a mouse would drag it, then the eye upward, to at most straight above the
-    /// target; radians.
+    /// Turns what is seen to the right, as a mouse would drag it, then the eye upward, to at most
+    /// straight above the target; radians.
     void turn(double right, double upward);
     /// Moves the target with the picture, in parts of the picture's height.
     void pan(double right, double upward);

@@ -12,8 +12,8 @@ struct ViewImage {
     std::vector<std::uint8_t> rgb;
 };
 
-/// A picture of linear colour times alpha in the driver's memory, over which layers are blended. Needs
-/// a current Context while it lives.
+/// A picture of linear colour times alpha in the driver's memory, over which layers are blended.
+/// Needs a current Context while it lives.
 class ViewTarget {
 public:
     /// @param width, height  pixels, 1 to 8192

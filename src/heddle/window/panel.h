@@ -10,7 +10,8 @@ struct PanelState {
     double answer_ms = 0.0; ///< how long the last input took to show
 };
 
-/// Draws the controls of a session with Dear ImGui, between its NewFrame and Render, and does what they ask.
+/// Draws the controls of a session with Dear ImGui, between its NewFrame and Render, and does what
+/// they ask.
 void draw_panel(viewer::Session& session, PanelState& state);
 
 } // namespace heddle::window

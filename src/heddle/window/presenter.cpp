@@ -22,7 +22,9 @@ void main() {
                  ? texelFetch(fine, min(at, size - 1), 0)
                  : textureLod(coarse, gl_FragCoord.xy / vec2(size), 0.0);
     vec3 x = clamp(c.rgb + 1.0 - c.a, 0.0, 1.0); // over white
-    result = vec4(mix(1.055 * pow(x, vec3(1.0 / 2.4)) - 0.055, 12.92 * x, lessThanEqual(x, vec3(0.0031308))), 1.0);
+    vec3 srgb = mix(1.055 * pow(x, vec3(1.0 / 2.4)) - 0.055, 12.92 * x,
+                    lessThanEqual(x, vec3(0.0031308)));
+    result = vec4(srgb, 1.0);
 }
 )";
 

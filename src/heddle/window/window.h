@@ -23,8 +23,8 @@ struct WindowCounts {
     std::string driver;
 };
 
-/// Opens a window on a subject and returns when it is closed. Where the driver loses its context, the
-/// window is opened anew with the same settings.
+/// Opens a window on a subject and returns when it is closed. Where the driver loses its context,
+/// the window is opened anew with the same settings.
 /// @param settings  what it begins with
 /// @param progress  closes it once it is cancelled
 /// @throws Error    Device: no display, no OpenGL 4.5; as Session

@@ -8,8 +8,8 @@
 
 namespace heddle::viewer {
 
-/// Draws a picture so that input is answered: coarse at once, as coarse as the time for one asks, then
-/// fine in bands of rows. Needs a current context while it lives.
+/// Draws a picture so that input is answered: coarse at once, as coarse as the time for one asks,
+/// then fine in bands of rows. Needs a current context while it lives.
 class Refiner {
 public:
     /// Draws into a target, within its limit; the coarse one has fewer pixels for the same view.

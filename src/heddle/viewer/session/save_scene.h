@@ -8,8 +8,9 @@
 
 namespace heddle::viewer {
 
-/// A scene file for `heddle render` that shows a volume as the view does: its camera, and a light of the same
-/// direction and share: three quarters directional, a quarter from everywhere.          [docs/scene.md]
+/// A scene file for `heddle render` that shows a volume as the view does: its camera, and a light
+/// of the same direction and share: three quarters directional, a quarter from everywhere.
+/// [docs/scene.md]
 /// @param volume         path of a .vdb, as the scene file's folder has it
 /// @param light          towards the light, any length but 0
 /// @param width, height  px

@@ -29,8 +29,8 @@ struct Subject {
 /// A box around the control points, or where there are none around the leaves of 8^3 voxels.
 [[nodiscard]] Bounds bounds_of(const Subject& subject);
 
-/// What a view holds and does, without a window: settings in, pictures, voxels and files out. What fails
-/// leaves one line as message(), and everything as it was.
+/// What a view holds and does, without a window: settings in, pictures, voxels and files out. What
+/// fails leaves one line as message(), and everything as it was.
 class Session {
 public:
     /// @param context  lives as long

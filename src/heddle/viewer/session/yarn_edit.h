@@ -15,16 +15,19 @@ struct YarnEdit {
     bool operator==(const YarnEdit&) const = default;
 };
 
-/// Kinds that edits are for: the yarns in their order, then plain fibers where some set has no yarn.
+/// Kinds that edits are for: the yarns in their order, then plain fibers where some set has no
+/// yarn.
 [[nodiscard]] std::vector<std::string> names_of_kinds(const Geometry& geometry);
 
 /// @param edits  one a kind
 [[nodiscard]] Geometry edited(const Geometry& geometry, const std::vector<YarnEdit>& edits);
 
-/// `factor` times as many fibers stand for each slice, one at least: what SliceLook::opacity is to a picture.
+/// `factor` times as many fibers stand for each slice, one at least: what SliceLook::opacity is to
+/// a picture.
 void multiply_fibers(Geometry& geometry, double factor);
 
-/// A box around the control points that a camera sees, grown by the yarns' radius; empty where it sees none.
+/// A box around the control points that a camera sees, grown by the yarns' radius; empty where it
+/// sees none.
 /// @param aspect  width over height of the picture
 [[nodiscard]] Bounds seen_bounds(const Geometry& geometry, const CameraView& camera, double aspect);
 

@@ -7,8 +7,8 @@
 
 namespace heddle::viewer {
 
-/// Sorts keys of 32 bits with their numbers in compute shaders, four bits a pass, keeping the order of
-/// equal keys. Needs a current Context while it lives.                       [LopezMoreno17, 4.1]
+/// Sorts keys of 32 bits with their numbers in compute shaders, four bits a pass, keeping the order
+/// of equal keys. Needs a current Context while it lives.                      [LopezMoreno17, 4.1]
 class RadixSort {
 public:
     /// @param count  of keys, at least 1

@@ -15,7 +15,8 @@ namespace heddle::viewer {
 /// Bytes in the driver's memory for each slice of the largest chunk: in view, its keys and numbers.
 constexpr std::int64_t kSeenBytes = 64 + 4 * 4 + 1;
 
-/// Placed slices, and how they look from an eye: a chunk at a time, as one buffer of the driver holds it.
+/// Placed slices, and how they look from an eye: a chunk at a time, as one buffer of the driver
+/// holds it.
 class SeenSlices {
 public:
     /// @param chunks  one at least
@@ -25,8 +26,8 @@ public:
     [[nodiscard]] std::size_t chunk_count() const { return chunks_.size(); }
     [[nodiscard]] std::int64_t slice_count() const;
 
-    /// Turns a chunk's slices into an eye's axes, numbers its slabs and, if asked to, sorts them from
-    /// the farthest to the nearest. Then what draws them finds slices at storage binding 0 and
+    /// Turns a chunk's slices into an eye's axes, numbers its slabs and, if asked to, sorts them
+    /// from the farthest to the nearest. Then what draws them finds slices at storage binding 0 and
     /// numbers at binding 2.
     /// @param middle  units: a place near to what is seen
     /// What was seen last is not done again.

@@ -51,7 +51,8 @@ private:
     GLboolean was_;
 };
 
-/// Where the driver's memory is the host's, it gives more than is there: so many slices at most. 0: no limit.
+/// Where the driver's memory is the host's, it gives more than is there: so many slices at most. 0:
+/// no limit.
 double most_slices(const opengl::Context& context) {
     if (!context.is_software()) return 0.0;
     const auto each = static_cast<double>(sizeof(slice::PlacedSlice)) + kSeenBytes;
@@ -126,8 +127,8 @@ void SliceScene::draw_nearest(const EyeFrame& eye,
     opengl::finish_writes();
 }
 
-/// What the shadow map has to cover: all, or where little of that is seen, what lies around the target; it moves
-/// and grows in steps, so that a moving view seldom needs another.
+/// What the shadow map has to cover: all, or where little of that is seen, what lies around the
+/// target; it moves and grows in steps, so that a moving view seldom needs another.
 Ball SliceScene::shadowed_part(const CameraView& camera, double aspect) const {
     const double height = camera.orthographic ? camera.view_height
                                               : 2.0 * std::tan(0.5 * camera.view_angle) *

@@ -50,7 +50,8 @@ struct SliceTimes {
     double draw = 0.0;
 };
 
-/// Yarns as alpha-blended slices, shaded by Kajiya and Kay's model.     [LopezMoreno17, 4; docs/raster.md]
+/// Yarns as alpha-blended slices, shaded by Kajiya and Kay's model.
+///   [LopezMoreno17, 4; docs/raster.md]
 class SliceView {
 public:
     /// Makes the sections and places the slices.
@@ -61,18 +62,21 @@ public:
     SliceView(const SliceView&) = delete;
     SliceView& operator=(const SliceView&) = delete;
 
-    /// Places the slices again: other radii, twists, colours or centrelines of the same kinds of yarn.
+    /// Places the slices again: other radii, twists, colours or centrelines of the same kinds of
+    /// yarn.
     /// @throws Error  OutOfMemory, InvalidArgument: see slice::place_slices; what was there stays
     void place(Geometry geometry);
-    /// Places them again, closer or farther apart, where pixels have become four times as small or large.
+    /// Places them again, closer or farther apart, where pixels have become four times as small or
+    /// large.
     /// @param pixel   scene units, at what is looked at
     /// @throws Error  as place
     void fit(double pixel);
-    /// Draws over what the target holds, within its limit. Shadow maps are kept, one of each size, and so is
-    /// the order, until what they are made of changes.
+    /// Draws over what the target holds, within its limit. Shadow maps are kept, one of each size,
+    /// and so is the order, until what they are made of changes.
     /// @param grid   voxels for SliceColor::Grid; null: none
     /// @param times  waited for and filled in where it is there
-    /// @throws Error  InvalidArgument: a direction without length, Grid without voxels; Device, OutOfMemory
+    /// @throws Error  InvalidArgument: a direction without length, Grid without voxels; Device,
+    ///                OutOfMemory
     void draw(const ViewTarget& target,
               const CameraView& camera,
               const SliceLook& look,

@@ -16,7 +16,8 @@
 #include <utility>
 #include <vector>
 
-// What SliceView draws without shadows, in double precision on the CPU: docs/raster.md says it in words.
+// What SliceView draws without shadows, in double precision on the CPU: docs/raster.md says it in
+// words.
 
 namespace heddle::viewer::test {
 

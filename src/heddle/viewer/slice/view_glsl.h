@@ -100,7 +100,8 @@ vec2 start_pixel() {
     return parallel == 1 ? range : max(range, vec2(0.0));
 }
 
-// Steps through the slab of a texel as large as a pixel, or larger; a step hides what its texel does.
+// Steps through the slab of a texel as large as a pixel, or larger; a step hides what its texel
+// does.
 struct Steps { int count; float dt; float level; float strength; };
 
 Steps steps_through(vec2 range) {
@@ -187,8 +188,9 @@ inline constexpr std::string_view kNoGridGlsl = R"(
 vec3 grid_color(vec3 from_eye) { return vec3(0.0); }
 )";
 
-/// GLSL, fragment: the direction that voxels store where a slab is seen, white in one block, grey where there is no
-/// voxel. Needs kVoxelTableGlsl.                                                    [LopezMoreno17, fig. 14]
+/// GLSL, fragment: the direction that voxels store where a slab is seen, white in one block, grey
+/// where there is no voxel. Needs kVoxelTableGlsl.
+///   [LopezMoreno17, fig. 14]
 inline constexpr std::string_view kGridGlsl = R"(
 uniform vec3 eye_place; // scene units
 uniform float unit;     // scene units
@@ -205,7 +207,7 @@ vec3 grid_color(vec3 from_eye) {
 )";
 
 /// GLSL, fragment: a slab's colour: Kajiya and Kay's model of a thread under one distant light, the
-/// shadow map, and the section's occlusion.                                        [LopezMoreno17, 4.2]
+/// shadow map, and the section's occlusion.                                    [LopezMoreno17, 4.2]
 inline constexpr std::string_view kShadeGlsl = R"(
 layout(std430, binding = 4) readonly buffer Shadow { uint shadow[]; };
 uniform vec3 to_light;                          // in the eye's axes

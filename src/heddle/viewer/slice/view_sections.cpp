@@ -58,7 +58,8 @@ ViewSections::ViewSections(const slice::SectionLayers& sections,
                            const std::vector<std::vector<std::uint8_t>>& light) {
     const std::int32_t n = sections.size;
     const auto levels = static_cast<GLsizei>(std::bit_width(static_cast<std::uint32_t>(n)));
-    // 16 bits: some drivers filter 8 bits in 8 bits, and the logarithm of what is left of alpha shows it
+    // 16 bits: some drivers filter 8 bits in 8 bits, and the logarithm of what is left of alpha
+    // shows it
     color_ = make_array(GL_RGBA16, n, sections.layers.size(), levels);
     light_ = make_array(GL_R16, n, sections.layers.size(), 1);
     if (glGetError() != GL_NO_ERROR) {

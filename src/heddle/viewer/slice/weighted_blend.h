@@ -8,8 +8,7 @@
 namespace heddle::viewer {
 
 /// Blending that no order shows in: colours weigh by how near they are to what is nearest, and what
-/// shines through is the product over all.                                      [McGuire and Bavoil 2013]
-/// Needs a current Context while it lives.
+/// shines through is the product over all [McGuire and Bavoil 2013]. Needs a current Context while it lives.
 class WeightedBlend {
 public:
     /// @throws Error  OutOfMemory
