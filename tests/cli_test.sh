@@ -127,6 +127,8 @@ fails 2 "--color level is none of slices" view knit.bcc --headless --color level
 fails 2 "no voxels are there" view knit.bcc --headless --color grid -o frames
 fails 2 "no voxels are there" view knit.bcc --headless --scene -o frames
 works voxelize knit.bcc --voxels 40 -o seen.vdb
+works voxelize knit.bcc --fill-memory --memory 60M --dry-run -o filled.vdb
+fails 2 "--fill-memory chooses" voxelize knit.bcc --fill-memory --voxels 9 -o filled.vdb
 works view seen.vdb --headless --size 64x64 --color density --blocks --white-block 0,0,0 --scene -o seen
 [ -s seen/frame_0000.png ] || wrong "no picture of a volume"
 works render seen/seen_view.toml --samples 1 --size 16x16 -o scene.png

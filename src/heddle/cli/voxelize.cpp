@@ -38,6 +38,10 @@ Command voxelize_command() {
     };
     add(frame_options());
     add(resolution_options());
+    add({{"--fill-memory", "", "", flag(), "",
+          "as many voxels as fit into memory without a temporary file (--memory, else half of what "
+          "is "
+          "free)"}});
     add({{"--bounds", "X0,Y0,Z0,X1,Y1,Z1", "(all of the object)", numbers(6, 6, -kInf, kInf),
           "scene units", "keeps the voxels that touch this box"}});
     add(load_options());

@@ -2,6 +2,7 @@
 
 #include <heddle/base/memory.h>
 #include <heddle/cli/device_options.h>
+#include <heddle/cli/fill_memory.h>
 #include <heddle/cli/level_options.h>
 #include <heddle/cli/load.h>
 #include <heddle/cli/text.h>
@@ -20,6 +21,11 @@ using Clock = std::chrono::steady_clock;
 
 VoxelizeOptions voxelize_options(const Arguments& arguments, const std::string& output) {
     VoxelizeOptions options = resolution_from(arguments);
+    if (arguments.given("fill-memory") &&
+        (arguments.given("voxels") || arguments.given("voxel-size"))) {
+        throw UsageError(
+            "--fill-memory chooses the resolution: leave out --voxels and --voxel-size");
+    }
     if (arguments.given("bounds")) {
         const std::vector<double> b = arguments.numbers("bounds");
         options.bounds = Bounds{{b[0], b[1], b[2]}, {b[3], b[4], b[5]}};
@@ -121,11 +127,19 @@ VoxelizedFile voxelize_file(const Arguments& arguments,
     bar.check();
     bar.begin("plan", "files", 1);
     const std::unique_ptr<LevelBuilder> builder = level_builder(arguments);
-    VoxelizePlan plan = plan_voxelize(geometry, options, bar, builder.get());
-    if (uses_raster(arguments)) {
-        plan.peak_bytes += drawer.predict_bytes(geometry, options, plan);
-        plan.seconds = 0.0; // it was measured of fibers; of a driver nothing is known
+    const auto plan_of = [&](const VoxelizeOptions& how, LevelBuilder* levels) {
+        VoxelizePlan out = plan_voxelize(geometry, how, bar, levels);
+        if (!uses_raster(arguments)) return out;
+        out.peak_bytes += drawer.predict_bytes(geometry, how, out);
+        out.seconds = 0.0; // it was measured of fibers; of a driver nothing is known
+        return out;
+    };
+    if (arguments.given("fill-memory")) {
+        options.voxels = voxels_that_fit(options, [&](const VoxelizeOptions& how) {
+            return plan_of(how, level_builder(arguments).get());
+        });
     }
+    const VoxelizePlan plan = plan_of(options, builder.get());
     bar.finish();
     for (const std::string& note : geometry.notes) report.note(note);
     const std::int64_t predicted = report_plan(report, plan);

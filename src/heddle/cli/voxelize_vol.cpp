@@ -20,7 +20,8 @@ namespace {
 
 /// Options of `voxelize` that choose or measure voxels: a volume has them.
 void refuse_other_options(const Arguments& arguments) {
-    std::vector<std::string> useless{"bounds", "subvoxels", "coverage", "samples", "fit"};
+    std::vector<std::string> useless{"bounds",  "subvoxels", "coverage",
+                                     "samples", "fit",       "fill-memory"};
     for (const std::vector<Option>& rows :
          {resolution_options(), load_options(), model_options(), raster_options()}) {
         for (const Option& row : rows) useless.push_back(row.key());

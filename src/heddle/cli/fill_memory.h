@@ -1,0 +1,19 @@
+#pragma once
+
+#include <heddle/voxel/voxelize.h>
+
+#include <cstdint>
+#include <functional>
+
+namespace heddle::cli {
+
+/// Voxels along the longest axis: as many as fit into memory without a temporary file, to 2 %, as
+/// [LopezMoreno17, 3.4] chooses its resolution.
+/// @param options  its memory, else half of what is free; its voxels are not looked at
+/// @param plan_of  the plan for options, with all that will take memory
+/// @throws Error   OutOfMemory: not even 16 fit; as `plan_of`
+[[nodiscard]] std::int64_t
+voxels_that_fit(const VoxelizeOptions& options,
+                const std::function<VoxelizePlan(const VoxelizeOptions&)>& plan_of);
+
+} // namespace heddle::cli
