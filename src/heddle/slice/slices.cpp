@@ -46,9 +46,12 @@ std::uint32_t flags_of(const CurveSet& set, std::size_t curve) {
            (set.basis == Basis::CubicBSpline ? 4u : 0u) | (set.color.empty() ? 0u : 8u);
 }
 
-float spacing_of(double radius_units, double asked) {
+/// @param lattice  slabs are followed by rays on it: long ones would be most of a block
+float spacing_of(double radius_units, double asked, bool lattice) {
+    constexpr double kMostOnLattice = 16.0;
     if (asked > 0.0) return static_cast<float>(asked);
-    return static_cast<float>(std::clamp(0.5 * radius_units, 1.0, 16.0));
+    const double half = std::max(0.5 * radius_units, 1.0);
+    return static_cast<float>(lattice ? std::min(half, kMostOnLattice) : half);
 }
 
 /// Of slices, a subvoxel: past it no lattice shows what turns.
@@ -104,7 +107,7 @@ void add_set(CurveTables& out,
         row.extent = layer.extent;
         row.fiber_radius = layer.fiber_radius;
         row.yarn_radius = static_cast<float>(static_cast<double>(fixed) * inv);
-        row.spacing = spacing_of(radius, options.spacing);
+        row.spacing = spacing_of(radius, options.spacing, options.lattice);
         out.knots += row.spans + 1;
         out.curves.push_back(row);
         out.materials.push_back(set.material);
@@ -127,7 +130,7 @@ split_runs(const CurveTables& tables, const std::vector<CourseRow>& courses, std
             throw Error(ErrorCode::OutOfMemory,
                         str("raster: one yarn needs ", count, " slices (limit ", most,
                             " of the driver's buffers)"),
-                        "use larger voxels, or a smaller twist");
+                        "give more --memory, larger voxels or a smaller twist");
         }
         const bool same = !runs.empty() && tables.materials[c] == tables.materials[c - 1];
         if (!same || runs.back().slices + count > most) runs.push_back({.first = c, .end = c});
@@ -187,7 +190,8 @@ estimate_slices(const Geometry& geometry, const LatticeUnits& units, const Place
             const double radius =
                 static_cast<double>(fixed > 0.0f ? fixed : set.radius_at(set.first[c])) /
                 units.unit;
-            double least = 1.0 / static_cast<double>(spacing_of(radius, options.spacing));
+            double least =
+                1.0 / static_cast<double>(spacing_of(radius, options.spacing, options.lattice));
             if (yarn != nullptr && yarn->model == YarnModel::Slice && radius > 0.0) {
                 const double turn =
                     std::fabs(static_cast<double>(yarn->twist * yarn->model_radius));

@@ -77,11 +77,12 @@ void SliceScene::place(double asked_pixel) {
         {.voxel_size = {asked_pixel, asked_pixel, asked_pixel}, .subvoxels = 1});
     const std::int64_t each = kSeenBytes + static_cast<std::int64_t>(sizeof(slice::PlacedSlice));
     const auto part = static_cast<std::int64_t>(sizeof(slice::PlacedSlice));
-    std::vector<slice::SliceChunk> chunks =
-        slice::place_slices(context, geometry, layers, next,
-                            {.most_slices = most_slices(context),
-                             .chunk_bytes = options.memory_bytes / each * part,
-                             .lattice = false});
+    const std::int64_t chunk = options.memory_bytes > 0
+                                   ? std::max(options.memory_bytes / each, std::int64_t{1}) * part
+                                   : 0;
+    std::vector<slice::SliceChunk> chunks = slice::place_slices(
+        context, geometry, layers, next,
+        {.most_slices = most_slices(context), .chunk_bytes = chunk, .lattice = false});
     if (chunks.empty()) {
         throw Error(ErrorCode::Unsupported,
                     str("view: no curve of '", geometry.name, "' has any length"),
