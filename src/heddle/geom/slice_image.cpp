@@ -154,6 +154,8 @@ SliceImage make_slice(const YarnType& yarn, const SliceOptions& options) {
     SliceImage out;
     out.yarn = yarn;
     out.yarn.model = YarnModel::Slice;
+    out.yarn.flyaways = false; // what the notes say is lost
+    out.yarn.migration = false;
     out.yarn.slice = blank(options.size, options.size, 4);
     out.yarn.slice.name = yarn.name + ".png";
     const auto size = static_cast<std::size_t>(options.size);

@@ -78,6 +78,20 @@ TEST(SliceImage, TheSliceHasTheYarnsTwistSizeAndFibers) {
     EXPECT_NEAR(filled, mean_alpha(made.yarn.slice) * 16.0, 1e-3);
 }
 
+TEST(SliceImage, TheSliceHasNoneOfWhatItsNotesSayIsLost) {
+    YarnType yarn;
+    yarn.model = YarnModel::Procedural;
+    yarn.fiber_radius = 0.05f;
+    yarn.flyaways = true;
+    yarn.hair_density = 10.0f;
+    yarn.migration = true;
+    const SliceImage slice = make_slice(yarn, {.size = 16});
+    ASSERT_FALSE(slice.notes.empty());
+    EXPECT_NE(slice.notes[0].find("without migration, flyaways"), std::string::npos);
+    EXPECT_FALSE(slice.yarn.flyaways); // else fibers would grow hairs that no picture shows
+    EXPECT_FALSE(slice.yarn.migration);
+}
+
 TEST(SliceImage, SaysWhatLiesOutsideItsSquare) {
     YarnType yarn = three_plies();
     yarn.ply_offset = 2.0f;
