@@ -67,9 +67,10 @@ Vec3d axis_of(const std::string& name) {
 }
 
 /// The axis that was asked for, or as preview has it: z of what lies flat.
-Vec3d up_of(const Arguments& arguments, Vec3d size) {
+Vec3d up_of(const Arguments& arguments, const viewer::Subject& subject) {
     const std::string name = arguments.text("up");
     if (name != "auto") return axis_of(name);
+    const Vec3d size = viewer::bounds_of(subject).size();
     return axis_of(size.z < 0.5 * size.x && size.z < 0.5 * size.y ? "z" : "y");
 }
 
@@ -77,7 +78,7 @@ Vec3d up_of(const Arguments& arguments, Vec3d size) {
 viewer::Orbit orbit_of(const Arguments& arguments, const viewer::Subject& subject, double aspect) {
     constexpr double kDegree = std::numbers::pi / 180.0;
     viewer::Orbit orbit{.from = direction(arguments, "from"),
-                        .up = up_of(arguments, viewer::bounds_of(subject).size()),
+                        .up = up_of(arguments, subject),
                         .view_angle = arguments.number("view-angle") * kDegree};
     orbit.frame({.radius = 1.0}, aspect);
     if (arguments.given("target")) orbit.target = direction(arguments, "target");

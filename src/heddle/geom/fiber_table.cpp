@@ -2,6 +2,7 @@
 
 #include <heddle/base/random.h>
 #include <heddle/base/trig.h>
+#include <heddle/geom/color.h>
 
 #include <algorithm>
 #include <array>
@@ -67,15 +68,14 @@ struct SliceTexel {
 
 SliceTexel slice_texel(const Texture& image, std::size_t index) {
     const std::uint8_t* t = image.texels.data() + index * static_cast<std::size_t>(image.channels);
-    std::uint32_t color = 0;
+    Vec3f linear;
     for (int c = 0; c < 3; ++c) {
         const float v = static_cast<float>(t[c]) / 255.0f;
-        const float linear = !image.srgb     ? v
-                             : v <= 0.04045f ? v / 12.92f
-                                             : std::pow((v + 0.055f) / 1.055f, 2.4f);
-        color |= static_cast<std::uint32_t>(linear * 255.0f + 0.5f) << (8 * c);
+        linear[c] = !image.srgb     ? v
+                    : v <= 0.04045f ? v / 12.92f
+                                    : std::pow((v + 0.055f) / 1.055f, 2.4f);
     }
-    return {color, static_cast<float>(t[3]) / 255.0f};
+    return {pack_color(linear), static_cast<float>(t[3]) / 255.0f};
 }
 
 /// Fibers spread over the image in proportion to alpha: fiber i takes the texel where the running sum

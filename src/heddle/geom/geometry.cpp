@@ -1,5 +1,7 @@
 #include <heddle/geom/geometry.h>
 
+#include <algorithm>
+
 namespace heddle {
 namespace {
 
@@ -10,6 +12,13 @@ double share_of_yarn(const YarnType& yarn) {
 }
 
 } // namespace
+
+CurveRadii radii_of(const CurveSet& set, const YarnType* yarn) {
+    if (yarn != nullptr && yarn->radius > 0.0f) return {yarn->radius, yarn->radius};
+    if (set.radius.empty()) return {set.default_radius, set.default_radius};
+    const auto [least, most] = std::minmax_element(set.radius.begin(), set.radius.end());
+    return {*least, *most};
+}
 
 float mean_fiber_radius(const Geometry& geometry, std::uint32_t material) {
     double sum = 0.0;

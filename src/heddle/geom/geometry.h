@@ -29,6 +29,15 @@ struct Geometry {
     }
 };
 
+/// Least and largest radius of a set's curves, scene units.
+struct CurveRadii {
+    float least = 0.0f, most = 0.0f;
+};
+
+/// The yarn's own radius where it has one, else those of the points.
+/// @param yarn  of the set; null: its curves are fibers
+[[nodiscard]] CurveRadii radii_of(const CurveSet& set, const YarnType* yarn);
+
 /// Mean radius of the fibers of a material, over control points; flyaway hairs are not counted.
 /// @return  scene units; 0 where nothing with that material is a fiber
 [[nodiscard]] float mean_fiber_radius(const Geometry& geometry, std::uint32_t material);

@@ -52,14 +52,6 @@ int weight_bits(const LatticeUnits& units,
     return static_cast<int>(std::clamp(std::floor(28.0 - std::log2(most)), -20.0, 20.0));
 }
 
-/// Least and largest radius of a set's curves, scene units.
-std::pair<float, float> radii_of(const CurveSet& set, const YarnType* yarn) {
-    if (yarn != nullptr && yarn->radius > 0.0f) return {yarn->radius, yarn->radius};
-    if (set.radius.empty()) return {set.default_radius, set.default_radius};
-    const auto [least, most] = std::minmax_element(set.radius.begin(), set.radius.end());
-    return {*least, *most};
-}
-
 /// Radius of the thinnest fiber, units.
 float thinnest_fiber(const Geometry& geometry,
                      const slice::SectionLayers& sections,
@@ -68,7 +60,7 @@ float thinnest_fiber(const Geometry& geometry,
     for (std::size_t s = 0; s < geometry.curves.size(); ++s) {
         const CurveSet& set = geometry.curves[s];
         const YarnType* yarn = geometry.yarn_of(set);
-        const float radius = radii_of(set, yarn).first;
+        const float radius = radii_of(set, yarn).least;
         const float model = yarn == nullptr ? 1.0f : yarn->model_radius;
         for (std::uint32_t l = sections.first[s]; l < sections.first[s + 1]; ++l) {
             least = std::min(least, radius / model * sections.layers[l].fiber_radius);
@@ -86,7 +78,7 @@ void check_thickness(const slice::SectionLayers& sections,
     for (std::size_t s = 0; s < geometry.curves.size(); ++s) {
         const CurveSet& set = geometry.curves[s];
         const YarnType* yarn = geometry.yarn_of(set);
-        const float radius = radii_of(set, yarn).second;
+        const float radius = radii_of(set, yarn).most;
         const float model = yarn == nullptr ? 1.0f : yarn->model_radius;
         const float extent = sections.layers[sections.first[s]].extent;
         const double reach = static_cast<double>(radius / model * extent) / units.unit;

@@ -32,12 +32,6 @@ Vec3d mean_axis(const PixelSums& p) {
     return d * ((sided ? dot(sum, d) : d[most]) < 0.0 ? -1.0 : 1.0);
 }
 
-std::uint8_t encode_srgb(double x) {
-    const double c = x > 0.0 ? std::min(x, 1.0) : 0.0; // NaN gives 0
-    const double s = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055;
-    return static_cast<std::uint8_t>(s * 255.0 + 0.5);
-}
-
 } // namespace
 
 void PixelSums::add(const PathSample& sample) {
@@ -108,6 +102,12 @@ std::vector<PictureChannel> channels_of(const Picture& picture, bool all) {
     add("samples", [&](const PixelSums& p) { return p.samples; });
     add("variance", [&](const PixelSums& p) { return variance_of_mean(p); });
     return out;
+}
+
+std::uint8_t encode_srgb(double x) {
+    const double c = x > 0.0 ? std::min(x, 1.0) : 0.0; // NaN gives 0
+    const double s = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055;
+    return static_cast<std::uint8_t>(s * 255.0 + 0.5);
 }
 
 std::vector<std::uint8_t> to_srgb8(const Picture& picture, double exposure) {

@@ -15,6 +15,12 @@ struct Slice {
 };
 const uint kLastOfYarn = 1u;
 
+vec3 any_perpendicular(vec3 n) { // [Duff 2017]
+    float s = n.z < 0.0 ? -1.0 : 1.0;
+    float a = -1.0 / (s + n.z);
+    return vec3(1.0 + s * n.x * n.x * a, s * n.x * n.y * a, -s * n.x);
+}
+
 // Difference of a fiber's places on two slices that are `turn` apart, one half a step before `at`
 // and one half a step behind it: eq. 1 of [LopezMoreno17], which looks one whole step back from the
 // second of the two, written for the place between them.
@@ -104,12 +110,6 @@ vec3 unit_or(vec3 v, vec3 fallback) {
 vec3 tangent_at(Cubic c, float t) {
     vec3 chord = unit_or(cubic_at(c, 1.0) - c.c0, vec3(0.0, 0.0, 1.0));
     return unit_or(cubic_slope(c, t), chord);
-}
-
-vec3 any_perpendicular(vec3 n) { // [Duff 2017]
-    float s = n.z < 0.0 ? -1.0 : 1.0;
-    float a = -1.0 / (s + n.z);
-    return vec3(1.0 + s * n.x * n.x * a, s * n.x * n.y * a, -s * n.x);
 }
 )";
 

@@ -68,6 +68,12 @@ void check_twist(const YarnType& yarn, double radius_units) {
         "use smaller voxels, or a smaller twist");
 }
 
+/// Of a curve at its start, scene units.
+double head_radius(const CurveSet& set, const YarnType* yarn, std::size_t curve) {
+    const float fixed = yarn == nullptr ? 0.0f : yarn->radius;
+    return static_cast<double>(fixed > 0.0f ? fixed : set.radius_at(set.first[curve]));
+}
+
 void add_set(CurveTables& out,
              const Geometry& geometry,
              std::size_t s,
@@ -92,8 +98,7 @@ void add_set(CurveTables& out,
     for (std::size_t c = 0; c < set.curve_count(); ++c) {
         const SectionLayer& layer = sections.layers[sections.of(s, c)];
         const float fixed = yarn == nullptr ? 0.0f : yarn->radius;
-        const double radius =
-            inv * static_cast<double>(fixed > 0.0f ? fixed : set.radius_at(set.first[c]));
+        const double radius = inv * head_radius(set, yarn, c);
         if (yarn != nullptr && options.lattice) check_twist(*yarn, radius);
         CurveRow row{};
         row.first_point = base + static_cast<std::uint32_t>(set.first[c]);
@@ -185,11 +190,8 @@ estimate_slices(const Geometry& geometry, const LatticeUnits& units, const Place
     double count = 0.0;
     for (const CurveSet& set : geometry.curves) {
         const YarnType* yarn = geometry.yarn_of(set);
-        const float fixed = yarn == nullptr ? 0.0f : yarn->radius;
         for (std::size_t c = 0; c < set.curve_count(); ++c) {
-            const double radius =
-                static_cast<double>(fixed > 0.0f ? fixed : set.radius_at(set.first[c])) /
-                units.unit;
+            const double radius = head_radius(set, yarn, c) / units.unit;
             double least =
                 1.0 / static_cast<double>(spacing_of(radius, options.spacing, options.lattice));
             if (yarn != nullptr && yarn->model == YarnModel::Slice && radius > 0.0) {

@@ -1,22 +1,14 @@
 #include <heddle/viewer/view_target.h>
 
 #include <heddle/base/error.h>
+#include <heddle/render/picture.h>
 
 #include <epoxy/gl.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace heddle::viewer {
 namespace {
 
 constexpr std::int32_t kMost = 8192;
-
-std::uint8_t to_srgb(float linear) {
-    const double x = std::clamp(static_cast<double>(linear), 0.0, 1.0);
-    const double s = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
-    return static_cast<std::uint8_t>(255.0 * s + 0.5);
-}
 
 } // namespace
 
@@ -92,7 +84,8 @@ ViewImage ViewTarget::image() const {
     out.rgb.resize(3 * width * height);
     for (std::size_t i = 0; i < width * height; ++i) {
         const float* from = &rgba[4 * ((height - 1 - i / width) * width + i % width)];
-        for (std::size_t c = 0; c < 3; ++c) out.rgb[3 * i + c] = to_srgb(from[c] + 1.0f - from[3]);
+        for (std::size_t c = 0; c < 3; ++c)
+            out.rgb[3 * i + c] = encode_srgb(static_cast<double>(from[c] + 1.0f - from[3]));
     }
     return out;
 }

@@ -36,12 +36,6 @@ constexpr std::int64_t kProgramBytes = 38 << 20;
     throw Error(ErrorCode::InvalidArgument, "voxelize: " + what, fix);
 }
 
-float largest_radius(const CurveSet& set, const YarnType* yarn) {
-    if (yarn != nullptr && yarn->radius > 0.0f) return yarn->radius;
-    if (set.radius.empty()) return set.default_radius;
-    return *std::max_element(set.radius.begin(), set.radius.end());
-}
-
 /// Box of all matter: control hulls grown by the primitives' reach.
 Bounds bounds_of(const Geometry& geometry) {
     Bounds box;
@@ -52,7 +46,7 @@ Bounds bounds_of(const Geometry& geometry) {
     for (const CurveSet& set : geometry.curves) {
         const YarnType* yarn = geometry.yarn_of(set);
         const float factor = yarn == nullptr ? 1.0f : yarn_reach(*yarn) / yarn->model_radius;
-        const auto reach = static_cast<double>(factor * largest_radius(set, yarn));
+        const auto reach = static_cast<double>(factor * radii_of(set, yarn).most);
         Bounds hulls = reduce_chunks(
             set.curve_count(), 64, Bounds{},
             [&](std::size_t begin, std::size_t end) {

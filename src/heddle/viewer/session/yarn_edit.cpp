@@ -1,5 +1,6 @@
 #include <heddle/viewer/session/yarn_edit.h>
 
+#include <heddle/geom/color.h>
 #include <heddle/viewer/orbit.h>
 
 #include <algorithm>
@@ -21,14 +22,7 @@ std::uint32_t tinted(std::uint32_t color, Vec3f tint) {
 /// Materials may be shared by kinds: points carry the tint, over the material's colour.
 void tint_set(CurveSet& set, const Material& material, Vec3f tint) {
     if (tint == Vec3f{1.0f, 1.0f, 1.0f}) return;
-    if (set.color.empty()) {
-        std::uint32_t color = 0;
-        for (int c = 0; c < 3; ++c) {
-            const float v = std::clamp(material.albedo[c], 0.0f, 1.0f) * 255.0f + 0.5f;
-            color |= static_cast<std::uint32_t>(v) << (8 * c);
-        }
-        set.color.assign(set.points.size(), color);
-    }
+    if (set.color.empty()) set.color.assign(set.points.size(), pack_color(material.albedo));
     for (std::uint32_t& c : set.color) c = tinted(c, tint);
 }
 

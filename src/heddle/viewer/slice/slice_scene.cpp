@@ -30,8 +30,7 @@ constexpr double kDepths = 16777215.0;         ///< that it tells apart
 Program slab_program(const char* name, std::initializer_list<std::string_view> fragment) {
     const std::string shared =
         std::string(slice::kSliceGlsl) + std::string(slice::kSpanGlsl) + std::string(kEyeGlsl);
-    const std::string vertex =
-        std::string(slice::kStretchGlsl) + std::string(kAcrossGlsl) + std::string(kSeenQuadGlsl);
+    const std::string vertex = std::string(slice::kStretchGlsl) + std::string(kSeenQuadGlsl);
     std::string body = std::string(slice::kSlabGlsl) + std::string(kOpacityGlsl);
     for (const std::string_view part : fragment) body += part;
     return Program::draw(name, shared, vertex, body);

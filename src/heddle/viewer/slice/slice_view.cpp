@@ -1,6 +1,7 @@
 #include <heddle/viewer/slice/slice_view.h>
 
 #include <heddle/base/error.h>
+#include <heddle/geom/color.h>
 #include <heddle/viewer/slice/slice_scene.h>
 
 #include <epoxy/gl.h>
@@ -16,12 +17,7 @@ namespace {
 /// Every set gets one material, whose colour goes to its points: all slices are sorted as one.
 void merge_materials(Geometry& geometry) {
     for (CurveSet& set : geometry.curves) {
-        const Vec3f albedo = geometry.materials[set.material].albedo;
-        std::uint32_t color = 0;
-        for (int c = 0; c < 3; ++c) {
-            const float v = std::clamp(albedo[c], 0.0f, 1.0f) * 255.0f + 0.5f;
-            color |= static_cast<std::uint32_t>(v) << (8 * c);
-        }
+        const std::uint32_t color = pack_color(geometry.materials[set.material].albedo);
         if (set.color.empty()) set.color.assign(set.points.size(), color);
         set.material = 0;
     }

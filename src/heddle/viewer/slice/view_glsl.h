@@ -66,7 +66,7 @@ void main() {
     }
     vec3 side = s.along - dot(s.along, toward) * toward;
     float tilt = length(side);
-    vec3 e = tilt > 1e-6 ? side / tilt : any_across(toward);
+    vec3 e = tilt > 1e-6 ? side / tilt : any_perpendicular(toward);
     vec3 d = cross(toward, e);
     // a disc seen at a slant is an ellipse with these two axes; what is nearer looks larger
     float grow = parallel == 1 ? 1.0 : away / (away - far);
@@ -75,15 +75,6 @@ void main() {
     float half_d = grow * (s.reach + half_long * bend) + pad;
     vec3 at = middle + corner().x * half_e * e + corner().y * half_d * d;
     gl_Position = vec4(2.0 * at.xy / (screen.z * screen.xy), 0.0, parallel == 1 ? 1.0 : at.z);
-}
-)";
-
-/// GLSL, vertex: a unit vector at right angles to one.                               [Duff 2017]
-inline constexpr std::string_view kAcrossGlsl = R"(
-vec3 any_across(vec3 n) {
-    float s = n.z < 0.0 ? -1.0 : 1.0;
-    float a = -1.0 / (s + n.z);
-    return vec3(1.0 + s * n.x * n.x * a, s * n.x * n.y * a, -s * n.x);
 }
 )";
 
