@@ -3,8 +3,8 @@
 #include <heddle/base/memory.h>
 #include <heddle/base/parallel.h>
 #include <heddle/base/random.h>
-#include <heddle/io/curve_files.h>
-#include <heddle/io/yarn_file.h>
+#include <heddle/io/curve/curve_files.h>
+#include <heddle/io/yarn/yarn_file.h>
 #include <heddle/render/embree/embree_scene.h>
 
 #include <chrono>

@@ -1,5 +1,5 @@
 // What evaluating a yarn's fibers costs by itself: the floor under bench/voxelize_speed.py.
-#include <heddle/voxel/gather_kernels.h>
+#include <heddle/voxelize/fiber/gather_kernels.h>
 
 #include <benchmark/benchmark.h>
 

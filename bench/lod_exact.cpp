@@ -5,13 +5,13 @@
 
 #include <heddle/base/error.h>
 #include <heddle/geom/generate.h>
-#include <heddle/io/curve_files.h>
+#include <heddle/io/curve/curve_files.h>
 #include <heddle/io/mesh/read_mesh.h>
 #include <heddle/io/vdb/read_vdb.h>
 #include <heddle/io/vdb/write_vdb.h>
-#include <heddle/io/yarn_file.h>
+#include <heddle/io/yarn/yarn_file.h>
 #include <heddle/lod/build_levels.h>
-#include <heddle/voxel/voxelize.h>
+#include <heddle/voxelize/voxelize.h>
 
 #include <algorithm>
 #include <chrono>

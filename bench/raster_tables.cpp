@@ -1,13 +1,13 @@
 // raster_tables sort|slices|images: figure 11, table 1 and the size of slice images of [LopezMoreno17], as tables.
 #include <heddle/base/random.h>
 #include <heddle/geom/generate.h>
-#include <heddle/geom/slice_image.h>
-#include <heddle/io/yarn_file.h>
+#include <heddle/io/yarn/yarn_file.h>
 #include <heddle/opengl/context.h>
 #include <heddle/raster/test_difference.h>
 #include <heddle/raster/voxelize_slices.h>
 #include <heddle/slice/test_slices.h>
 #include <heddle/viewer/slice/radix_sort.h>
+#include <heddle/yarn/slice_image.h>
 
 #include <algorithm>
 #include <array>

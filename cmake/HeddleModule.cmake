@@ -1,8 +1,10 @@
-# heddle_add_module(<room> [INTERFACE] [NO_INSTALL] PUBLIC_HEADERS ... [SOURCES ...] [CUDA_SOURCES ...] [TESTS ...] [DEPS ...] [PRIVATE_DEPS ...])
+# heddle_add_module(<room> [INTERFACE] [NO_INSTALL] PUBLIC_HEADERS ... [SOURCES ...] [CUDA_SOURCES ...] [TESTS ...] [DEPS ...] [PRIVATE_DEPS ...] [TEST_DEPS ...])
 # One call per folder: target heddle_<room>, alias heddle::<room>, test binary heddle_<room>_test.
 # Every library is installed with its headers: the core in one export set, the rooms above it in another,
 # so that a machine without their libraries can still link the core (cmake/heddle-config.cmake.in).
-set(HEDDLE_CORE_ROOMS base gpu geom sggx voxel lod device)
+# the core: a C++20 compiler, and oneTBB or std::thread
+set(HEDDLE_CORE_ROOMS base executor geom sggx voxel yarn surface voxelize/block voxelize/chord voxelize/fiber
+  voxelize/triangle voxelize lod device/level device)
 add_library(heddle_flags INTERFACE)
 set(_w -Wall -Wextra -Wshadow -Wconversion -Wdouble-promotion -Wundef -Wnon-virtual-dtor -Woverloaded-virtual -ffp-contract=off)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
@@ -15,7 +17,7 @@ target_compile_options(heddle_flags INTERFACE
   "$<$<AND:$<BOOL:${HEDDLE_WERROR}>,$<COMPILE_LANGUAGE:CUDA>>:-Werror=all-warnings>")
 function(heddle_add_module path)
   string(REPLACE "/" "_" room ${path}) # io/vdb is target heddle_io_vdb
-  cmake_parse_arguments(A "INTERFACE;NO_INSTALL" "" "PUBLIC_HEADERS;SOURCES;CUDA_SOURCES;TESTS;DEPS;PRIVATE_DEPS" ${ARGN})
+  cmake_parse_arguments(A "INTERFACE;NO_INSTALL" "" "PUBLIC_HEADERS;SOURCES;CUDA_SOURCES;TESTS;DEPS;PRIVATE_DEPS;TEST_DEPS" ${ARGN})
   if(A_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "heddle_add_module(${room}): unknown argument(s): ${A_UNPARSED_ARGUMENTS}")
   endif()
@@ -41,7 +43,7 @@ function(heddle_add_module path)
   set_target_properties(heddle_${room} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON EXPORT_NAME ${room})
   if(NOT A_NO_INSTALL)
     set(set heddle-apps)
-    if(room IN_LIST HEDDLE_CORE_ROOMS)
+    if(path IN_LIST HEDDLE_CORE_ROOMS)
       set(set heddle-core)
     endif()
     install(TARGETS heddle_${room} EXPORT ${set} FILE_SET HEADERS)
@@ -51,7 +53,7 @@ function(heddle_add_module path)
     find_package(GTest REQUIRED)
     include(GoogleTest)
     add_executable(heddle_${room}_test ${A_TESTS})
-    target_link_libraries(heddle_${room}_test PRIVATE heddle::${room} GTest::gtest_main)
+    target_link_libraries(heddle_${room}_test PRIVATE heddle::${room} ${A_TEST_DEPS} GTest::gtest_main)
     target_compile_options(heddle_${room}_test PRIVATE ${HEDDLE_TEST_FLAGS})
     target_compile_definitions(heddle_${room}_test PRIVATE HEDDLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}") # of real data
     gtest_discover_tests(heddle_${room}_test TEST_PREFIX "${room}." PROPERTIES LABELS "unit\;${room}")

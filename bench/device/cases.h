@@ -1,7 +1,7 @@
 #pragma once
 
 #include <heddle/geom/geometry.h>
-#include <heddle/voxel/voxelize.h>
+#include <heddle/voxelize/voxelize.h>
 
 #include <string>
 #include <vector>

@@ -1,8 +1,8 @@
 #include "device_peaks.h"
 
 #include <heddle/base/platform.h>
-#include <heddle/gpu/cuda_executor.cuh>
-#include <heddle/gpu/device.h>
+#include <heddle/executor/cuda_executor.cuh>
+#include <heddle/executor/device.h>
 
 #include <chrono>
 
@@ -18,10 +18,10 @@ struct CopyOp {
 } // namespace
 
 double copy_bandwidth() {
-    if (gpu::find_device().name.empty()) return 0.0;
+    if (executor::find_device().name.empty()) return 0.0;
     constexpr std::size_t kItems = std::size_t{1} << 26;
-    gpu::Budget budget(std::int64_t{4} << 30);
-    gpu::CudaExecutor exec(budget);
+    executor::Budget budget(std::int64_t{4} << 30);
+    executor::CudaExecutor exec(budget);
     const auto from = exec.make_zero<ulonglong2>(kItems);
     const auto to = exec.make_zero<ulonglong2>(kItems);
     exec.for_each(kItems, CopyOp{from.data(), to.data()});
@@ -34,7 +34,7 @@ double copy_bandwidth() {
 }
 
 double peak_gigaflops() {
-    if (gpu::find_device().name.empty()) return 0.0;
+    if (executor::find_device().name.empty()) return 0.0;
     int multiprocessors = 0;
     int kilohertz = 0;
     if (cudaDeviceGetAttribute(&multiprocessors, cudaDevAttrMultiProcessorCount, 0) !=

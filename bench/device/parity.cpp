@@ -53,7 +53,7 @@ bool check(const Case& c, bool with_device) {
 }
 
 int main_of(bool small) {
-    const gpu::Device device = gpu::find_device();
+    const executor::Device device = executor::find_device();
     std::printf("device: %s\n\n", device.name.empty() ? device.why.c_str() : device.name.c_str());
     std::printf("| case | bits by the CPU | host executor | CUDA |\n|---|---|---|---|\n");
     bool same = true;

@@ -77,7 +77,7 @@ Run run_device(const Geometry& g,
                bool levels) {
     Run out;
     const VoxelizePlan plan = plan_range(g, options);
-    const bool cuda = !gpu::find_device().name.empty();
+    const bool cuda = !executor::find_device().name.empty();
     device.report = &out.report;
     out.seconds = seconds_of([&] {
         LevelBuilder builder({});
@@ -207,7 +207,7 @@ void print_mesh(int voxels, double published_ms, double bandwidth) {
 }
 
 int main_of(int rows) {
-    const gpu::Device device = gpu::find_device();
+    const executor::Device device = executor::find_device();
     const Peaks peaks;
     std::printf("device: %s\nthreads of the host: %d\n",
                 device.name.empty() ? device.why.c_str() : device.name.c_str(), thread_count());

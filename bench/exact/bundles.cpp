@@ -1,7 +1,7 @@
 #include "tables.h"
 
-#include <heddle/voxel/test_bundle.h>
-#include <heddle/voxel/test_tube.h>
+#include <heddle/voxelize/test_bundle.h>
+#include <heddle/voxelize/test_tube.h>
 
 #include <cstdio>
 

@@ -1,6 +1,6 @@
 #include "tables.h"
 
-#include <heddle/voxel/test_isolated.h>
+#include <heddle/voxelize/test_isolated.h>
 
 #include <cstdio>
 

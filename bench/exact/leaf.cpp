@@ -1,6 +1,6 @@
 #include "tables.h"
 
-#include <heddle/voxel/test_leaf.h>
+#include <heddle/voxelize/test_leaf.h>
 
 #include <algorithm>
 #include <cstdio>

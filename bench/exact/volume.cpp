@@ -1,6 +1,6 @@
 #include "tables.h"
 
-#include <heddle/voxel/test_tube.h>
+#include <heddle/voxelize/test_tube.h>
 
 #include <cstdio>
 

@@ -2,7 +2,7 @@
 
 #include <heddle/base/error.h>
 #include <heddle/base/parallel.h>
-#include <heddle/voxel/fiber_source.h>
+#include <heddle/yarn/fiber_source.h>
 
 #include <algorithm>
 #include <cmath>

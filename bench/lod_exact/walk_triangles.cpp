@@ -3,8 +3,8 @@
 #include <heddle/base/error.h>
 #include <heddle/base/parallel.h>
 #include <heddle/base/random.h>
+#include <heddle/surface/surface_source.h>
 #include <heddle/voxel/lattice_units.h>
-#include <heddle/voxel/surface_source.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
-#include <heddle/cli/command_line.h>
 #include <heddle/cli/commands.h>
+#include <heddle/cli/terminal/command_line.h>
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 #include <heddle/cli/device_options.h>
 
 #include <heddle/base/error.h>
-#include <heddle/cli/text.h>
-#include <heddle/gpu/device.h>
+#include <heddle/cli/terminal/text.h>
+#include <heddle/executor/device.h>
 
 #include <string>
 
@@ -26,7 +26,7 @@ choose_device(const Arguments& arguments, const VoxelizeOptions& options, Report
         if (memory) throw UsageError("--device-memory is of no use with --device cpu");
         return choice;
     }
-    const gpu::Device device = gpu::find_device();
+    const executor::Device device = executor::find_device();
     const std::string cannot = why_not_on_device(options);
     if (where == "cuda") {
         if (device.name.empty()) {

@@ -2,8 +2,8 @@
 #include <heddle/base/memory.h>
 #include <heddle/cli/commands.h>
 #include <heddle/cli/load.h>
-#include <heddle/cli/progress_bar.h>
-#include <heddle/cli/report.h>
+#include <heddle/cli/terminal/progress_bar.h>
+#include <heddle/cli/terminal/report.h>
 #include <heddle/io/vdb/read_vdb.h>
 #include <heddle/io/vol/write_mitsuba.h>
 #include <heddle/io/vol/write_mitsuba06.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <heddle/voxel/voxelize.h>
+#include <heddle/voxelize/voxelize.h>
 
 #include <cstdint>
 #include <functional>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <heddle/cli/option.h>
+#include <heddle/cli/terminal/option.h>
 
 #include <cstdint>
 #include <string>

@@ -2,11 +2,11 @@
 #include <heddle/base/memory.h>
 #include <heddle/cli/commands.h>
 #include <heddle/cli/load.h>
-#include <heddle/cli/progress_bar.h>
-#include <heddle/cli/report.h>
-#include <heddle/cli/text.h>
+#include <heddle/cli/terminal/progress_bar.h>
+#include <heddle/cli/terminal/report.h>
+#include <heddle/cli/terminal/text.h>
 #include <heddle/geom/generate.h>
-#include <heddle/io/curve_files.h>
+#include <heddle/io/curve/curve_files.h>
 #include <heddle/io/mesh/write_glb.h>
 
 namespace heddle::cli {

@@ -2,7 +2,7 @@
 #include <heddle/lod/rebuild_levels.h>
 
 #include <heddle/base/error.h>
-#include <heddle/cli/text.h>
+#include <heddle/cli/terminal/text.h>
 
 #include <utility>
 

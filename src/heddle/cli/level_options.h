@@ -1,7 +1,7 @@
 #pragma once
 
-#include <heddle/cli/option.h>
-#include <heddle/cli/report.h>
+#include <heddle/cli/terminal/option.h>
+#include <heddle/cli/terminal/report.h>
 #include <heddle/lod/build_levels.h>
 
 #include <memory>

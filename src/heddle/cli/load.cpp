@@ -1,11 +1,12 @@
 #include <heddle/base/error.h>
 #include <heddle/cli/load.h>
+#include <heddle/io/file/input_file.h>
+#include <heddle/io/file/output_file.h>
+#include <heddle/io/geometry/apply_yarn.h>
+#include <heddle/io/geometry/read_geometry.h>
 #include <heddle/io/image/image.h>
-#include <heddle/io/input_file.h>
 #include <heddle/io/mesh/read_mesh.h>
-#include <heddle/io/output_file.h>
-#include <heddle/io/yarn_file.h>
-#include <heddle/scene/load_object.h>
+#include <heddle/io/yarn/yarn_file.h>
 
 #include <filesystem>
 #include <limits>

@@ -3,8 +3,8 @@
 #include <heddle/cli/commands.h>
 #include <heddle/cli/level_options.h>
 #include <heddle/cli/load.h>
-#include <heddle/cli/progress_bar.h>
-#include <heddle/cli/report.h>
+#include <heddle/cli/terminal/progress_bar.h>
+#include <heddle/cli/terminal/report.h>
 #include <heddle/io/vdb/read_vdb.h>
 #include <heddle/io/vdb/write_vdb.h>
 #include <heddle/lod/rebuild_levels.h>

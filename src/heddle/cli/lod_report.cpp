@@ -4,9 +4,9 @@
 #include <heddle/cli/commands.h>
 #include <heddle/cli/load.h>
 #include <heddle/cli/lod_table.h>
-#include <heddle/cli/progress_bar.h>
-#include <heddle/cli/report.h>
-#include <heddle/cli/text.h>
+#include <heddle/cli/terminal/progress_bar.h>
+#include <heddle/cli/terminal/report.h>
+#include <heddle/cli/terminal/text.h>
 #include <heddle/io/image/image.h>
 #include <heddle/io/vdb/content_hash.h>
 #include <heddle/io/vdb/read_vdb.h>

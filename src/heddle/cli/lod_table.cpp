@@ -1,7 +1,7 @@
 #include <heddle/cli/lod_table.h>
 
 #include <heddle/base/error.h>
-#include <heddle/cli/text.h>
+#include <heddle/cli/terminal/text.h>
 
 #include <algorithm>
 #include <utility>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <heddle/cli/plot.h>
-#include <heddle/cli/report.h>
+#include <heddle/cli/terminal/report.h>
 #include <heddle/lod/level_report.h>
 
 #include <cstdint>

@@ -1,11 +1,11 @@
 #include <heddle/base/error.h>
 #include <heddle/base/nearest_name.h>
 #include <heddle/base/parallel.h>
-#include <heddle/cli/command_line.h>
 #include <heddle/cli/commands.h>
-#include <heddle/cli/progress_bar.h>
-#include <heddle/cli/report.h>
-#include <heddle/cli/text.h>
+#include <heddle/cli/terminal/command_line.h>
+#include <heddle/cli/terminal/progress_bar.h>
+#include <heddle/cli/terminal/report.h>
+#include <heddle/cli/terminal/text.h>
 
 #include <unistd.h>
 

@@ -2,9 +2,9 @@
 #include <heddle/base/nearest_name.h>
 #include <heddle/cli/commands.h>
 #include <heddle/cli/load.h>
-#include <heddle/cli/progress_bar.h>
-#include <heddle/cli/report.h>
-#include <heddle/cli/text.h>
+#include <heddle/cli/terminal/progress_bar.h>
+#include <heddle/cli/terminal/report.h>
+#include <heddle/cli/terminal/text.h>
 #include <heddle/io/vdb/read_vdb.h>
 #include <heddle/io/vdb/replace_materials.h>
 

@@ -1,8 +1,8 @@
-#include <heddle/cli/command_line.h>
 #include <heddle/cli/commands.h>
-#include <heddle/cli/progress_bar.h>
-#include <heddle/cli/report.h>
-#include <heddle/io/test_files.h>
+#include <heddle/cli/terminal/command_line.h>
+#include <heddle/cli/terminal/progress_bar.h>
+#include <heddle/cli/terminal/report.h>
+#include <heddle/io/file/test_files.h>
 #include <heddle/io/vdb/content_hash.h>
 #include <heddle/io/vdb/read_vdb.h>
 #include <heddle/io/vdb/write_vdb.h>

@@ -2,7 +2,7 @@
 
 #include <heddle/base/vec.h>
 #include <heddle/cli/font.h>
-#include <heddle/cli/text.h>
+#include <heddle/cli/terminal/text.h>
 
 #include <algorithm>
 #include <cmath>

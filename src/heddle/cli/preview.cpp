@@ -1,8 +1,8 @@
 #include <heddle/base/error.h>
 #include <heddle/cli/commands.h>
 #include <heddle/cli/load.h>
-#include <heddle/cli/progress_bar.h>
-#include <heddle/cli/report.h>
+#include <heddle/cli/terminal/progress_bar.h>
+#include <heddle/cli/terminal/report.h>
 #include <heddle/io/image/image.h>
 #include <heddle/io/vdb/read_vdb.h>
 #include <heddle/preview/preview.h>

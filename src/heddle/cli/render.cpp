@@ -2,9 +2,9 @@
 #include <heddle/base/memory.h>
 #include <heddle/cli/commands.h>
 #include <heddle/cli/load.h>
-#include <heddle/cli/progress_bar.h>
-#include <heddle/cli/report.h>
-#include <heddle/io/input_file.h>
+#include <heddle/cli/terminal/progress_bar.h>
+#include <heddle/cli/terminal/report.h>
+#include <heddle/io/file/input_file.h>
 #include <heddle/stage/render_job.h>
 #include <heddle/stage/scene_hash.h>
 

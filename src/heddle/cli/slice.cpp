@@ -1,12 +1,12 @@
 #include <heddle/base/error.h>
 #include <heddle/cli/commands.h>
 #include <heddle/cli/load.h>
-#include <heddle/cli/progress_bar.h>
-#include <heddle/cli/report.h>
-#include <heddle/geom/slice_image.h>
+#include <heddle/cli/terminal/progress_bar.h>
+#include <heddle/cli/terminal/report.h>
+#include <heddle/io/file/output_file.h>
 #include <heddle/io/image/image.h>
-#include <heddle/io/output_file.h>
-#include <heddle/io/yarn_file.h>
+#include <heddle/io/yarn/yarn_file.h>
+#include <heddle/yarn/slice_image.h>
 
 #include <algorithm>
 #include <filesystem>

@@ -1,17 +1,17 @@
 #include <heddle/base/error.h>
 #include <heddle/cli/commands.h>
 #include <heddle/cli/load.h>
-#include <heddle/cli/progress_bar.h>
-#include <heddle/cli/report.h>
+#include <heddle/cli/terminal/progress_bar.h>
+#include <heddle/cli/terminal/report.h>
 #include <heddle/cli/view_options.h>
-#include <heddle/geom/slice_image.h>
+#include <heddle/io/file/output_file.h>
 #include <heddle/io/image/image.h>
-#include <heddle/io/output_file.h>
 #include <heddle/io/vdb/read_vdb.h>
 #include <heddle/opengl/context.h>
 #include <heddle/viewer/orbit.h>
 #include <heddle/viewer/slice/slice_view.h>
 #include <heddle/window/window.h>
+#include <heddle/yarn/slice_image.h>
 
 #include <algorithm>
 #include <cmath>

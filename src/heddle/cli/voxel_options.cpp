@@ -1,5 +1,5 @@
 #include <heddle/base/error.h>
-#include <heddle/cli/text.h>
+#include <heddle/cli/terminal/text.h>
 #include <heddle/cli/voxel_options.h>
 #include <heddle/io/vdb/predict_vdb.h>
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <heddle/cli/option.h>
-#include <heddle/cli/report.h>
-#include <heddle/voxel/voxelize.h>
+#include <heddle/cli/terminal/option.h>
+#include <heddle/cli/terminal/report.h>
+#include <heddle/voxelize/voxelize.h>
 
 #include <vector>
 

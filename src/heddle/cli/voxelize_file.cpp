@@ -5,11 +5,11 @@
 #include <heddle/cli/fill_memory.h>
 #include <heddle/cli/level_options.h>
 #include <heddle/cli/load.h>
-#include <heddle/cli/text.h>
+#include <heddle/cli/terminal/text.h>
 #include <heddle/cli/voxel_options.h>
 #include <heddle/cli/voxelize_raster.h>
 #include <heddle/io/vdb/write_vdb.h>
-#include <heddle/voxel/voxelize.h>
+#include <heddle/voxelize/voxelize.h>
 
 #include <chrono>
 #include <filesystem>

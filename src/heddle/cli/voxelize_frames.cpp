@@ -4,7 +4,7 @@
 #include <heddle/base/memory.h>
 #include <heddle/cli/frames.h>
 #include <heddle/cli/load.h>
-#include <heddle/cli/text.h>
+#include <heddle/cli/terminal/text.h>
 #include <heddle/cli/voxelize_file.h>
 #include <heddle/cli/voxelize_raster.h>
 #include <heddle/cli/voxelize_vol.h>

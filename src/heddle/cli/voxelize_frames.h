@@ -1,8 +1,8 @@
 #pragma once
 
-#include <heddle/cli/option.h>
-#include <heddle/cli/progress_bar.h>
-#include <heddle/cli/report.h>
+#include <heddle/cli/terminal/option.h>
+#include <heddle/cli/terminal/progress_bar.h>
+#include <heddle/cli/terminal/report.h>
 
 namespace heddle::cli {
 

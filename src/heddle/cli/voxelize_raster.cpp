@@ -1,7 +1,7 @@
 #include <heddle/base/error.h>
 #include <heddle/cli/voxelize_raster.h>
-#include <heddle/geom/slice_image.h>
 #include <heddle/raster/voxelize_slices.h>
+#include <heddle/yarn/slice_image.h>
 
 #include <algorithm>
 #include <cstddef>

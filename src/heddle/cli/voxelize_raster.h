@@ -1,11 +1,11 @@
 #pragma once
 
 #include <heddle/base/progress.h>
-#include <heddle/cli/option.h>
-#include <heddle/cli/report.h>
+#include <heddle/cli/terminal/option.h>
+#include <heddle/cli/terminal/report.h>
 #include <heddle/geom/geometry.h>
 #include <heddle/raster/voxelize_slices.h>
-#include <heddle/voxel/voxelize.h>
+#include <heddle/voxelize/voxelize.h>
 
 #include <memory>
 #include <vector>

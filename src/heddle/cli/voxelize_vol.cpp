@@ -5,9 +5,9 @@
 #include <heddle/base/parallel.h>
 #include <heddle/cli/level_options.h>
 #include <heddle/cli/load.h>
-#include <heddle/cli/progress_bar.h>
-#include <heddle/cli/report.h>
-#include <heddle/cli/text.h>
+#include <heddle/cli/terminal/progress_bar.h>
+#include <heddle/cli/terminal/report.h>
+#include <heddle/cli/terminal/text.h>
 #include <heddle/cli/voxel_options.h>
 #include <heddle/io/vdb/write_vdb.h>
 #include <heddle/io/vol/read_vol.h>

@@ -1,7 +1,7 @@
 #include <heddle/device/batch_plan.h>
 
-#include <heddle/device/dense_sums.h>
 #include <heddle/device/gather_fibers_op.h>
+#include <heddle/device/level/dense_sums.h>
 
 #include <algorithm>
 

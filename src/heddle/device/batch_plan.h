@@ -1,9 +1,9 @@
 #pragma once
 
-#include <heddle/device/batch_levels.h>
 #include <heddle/device/block_pairs_op.h>
-#include <heddle/voxel/block_order.h>
+#include <heddle/device/level/batch_levels.h>
 #include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxelize/block_order.h>
 
 #include <array>
 #include <cstddef>

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <heddle/device/dense_sums.h>
-#include <heddle/gpu/atomic.h>
-#include <heddle/voxel/bin_op.h>
-#include <heddle/voxel/fiber_view.h>
-#include <heddle/voxel/surface_view.h>
+#include <heddle/device/level/dense_sums.h>
+#include <heddle/executor/atomic.h>
+#include <heddle/surface/surface_view.h>
+#include <heddle/voxelize/bin_op.h>
+#include <heddle/yarn/fiber_view.h>
 
 #include <array>
 #include <cstddef>
@@ -45,7 +45,7 @@ struct CountPairs {
     std::uint32_t* counts[kPrimitiveKinds]; ///< per block of the range; null: no such primitives
 
     HEDDLE_HD void add(std::size_t kind, std::uint64_t, std::uint64_t block, std::uint32_t) const {
-        gpu::atomic_add(counts[kind] + block, 1);
+        executor::atomic_add(counts[kind] + block, 1);
     }
 };
 
@@ -64,9 +64,10 @@ struct ListPairs {
                        std::uint32_t material) const {
         const std::uint32_t slot = slot_of_block[block];
         if (slot == kNoSlot) return;
-        const std::uint64_t at = gpu::atomic_add(next[kind] + slot, 1);
+        const std::uint64_t at = executor::atomic_add(next[kind] + slot, 1);
         pairs[kind][at] = {primitive, slot, 0};
-        gpu::atomic_or(&blocks[slot].materials[material / 64], std::uint64_t{1} << (material % 64));
+        executor::atomic_or(&blocks[slot].materials[material / 64],
+                            std::uint64_t{1} << (material % 64));
     }
 };
 

@@ -9,7 +9,7 @@
 #include <heddle/device/upload_surfaces.h>
 #include <heddle/device/voxelize_device.h>
 #include <heddle/voxel/block_keeper.h>
-#include <heddle/voxel/block_worker.h>
+#include <heddle/voxelize/block_worker.h>
 
 #include <atomic>
 #include <chrono>
@@ -32,7 +32,7 @@ void check_device_options(const VoxelizeOptions& options, const DeviceOptions& d
 template <typename Exec>
 class DeviceRun {
 public:
-    using MakeExec = std::function<std::unique_ptr<Exec>(gpu::Budget&)>;
+    using MakeExec = std::function<std::unique_ptr<Exec>(executor::Budget&)>;
 
     /// @param device  memory_bytes is set
     DeviceRun(const VoxelizeContext& context,
@@ -51,7 +51,7 @@ private:
     /// What one stream has of its own.
     struct Lane {
         std::unique_ptr<Exec> exec;
-        gpu::Array<std::uint32_t> slot_of_block;
+        executor::Array<std::uint32_t> slot_of_block;
         BatchLevels built;
     };
 
@@ -68,8 +68,8 @@ private:
     const VoxelizePlan& plan_;
     DeviceOptions device_;
     MakeExec make_;
-    gpu::Budget budget_;
-    gpu::StageTimes times_;
+    executor::Budget budget_;
+    executor::StageTimes times_;
     std::unique_ptr<Exec> base_; ///< holds what all streams read
     DeviceScene scene_;
     FiberArrays fibers_;
@@ -114,7 +114,7 @@ void DeviceRun<Exec>::count() {
     Exec& exec = *base_;
     exec.set_stage("bin");
     const std::size_t blocks = context_.range.count();
-    std::array<gpu::Array<std::uint32_t>, kPrimitiveKinds> counts;
+    std::array<executor::Array<std::uint32_t>, kPrimitiveKinds> counts;
     CountPairs to{};
     const std::array<bool, kPrimitiveKinds> there = kinds_of(context_);
     for (std::size_t k = 0; k < kPrimitiveKinds; ++k) {

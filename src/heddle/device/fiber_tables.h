@@ -1,8 +1,8 @@
 #pragma once
 
 #include <heddle/base/trig.h>
-#include <heddle/gpu/array.h>
-#include <heddle/voxel/fiber_source.h>
+#include <heddle/executor/array.h>
+#include <heddle/yarn/fiber_source.h>
 
 #include <cstdint>
 #include <span>
@@ -30,11 +30,12 @@ static_assert(sizeof(FiberTablesView) == 96, "the same on host and device");
 
 /// The same, where an executor works.
 struct FiberTables {
-    gpu::Array<std::uint64_t> first, yarn_of_set, ply_of_set;
-    gpu::Array<float> set_fiber_radius;
-    gpu::Array<SinCos> ply;
-    gpu::Array<float> radius, cos_angle, sin_angle, cos_migration, sin_migration, migration_turns;
-    gpu::Array<std::uint32_t> color;
+    executor::Array<std::uint64_t> first, yarn_of_set, ply_of_set;
+    executor::Array<float> set_fiber_radius;
+    executor::Array<SinCos> ply;
+    executor::Array<float> radius, cos_angle, sin_angle, cos_migration, sin_migration,
+        migration_turns;
+    executor::Array<std::uint32_t> color;
 
     [[nodiscard]] FiberTablesView view() const {
         return {first.data(),

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <heddle/device/fit_sums.h>
 #include <heddle/device/gather_fibers_op.h>
 #include <heddle/device/gather_triangle_op.h>
+#include <heddle/device/level/fit_sums.h>
 
 #include <array>
 #include <cstdint>
@@ -31,7 +31,7 @@ struct BlockBatch {
 
 /// The primitives of a batch's blocks, kind by kind.
 struct BatchPairs {
-    std::array<gpu::Array<BlockPair>, kPrimitiveKinds> of;
+    std::array<executor::Array<BlockPair>, kPrimitiveKinds> of;
 };
 
 /// Sets n numbers to one value.
@@ -68,7 +68,7 @@ list_pairs(Exec& exec, const DeviceScene& scene, BlockBatch& batch, std::uint32_
     const auto numbers = exec.make_from(std::span<const std::uint32_t>(batch.numbers));
     const auto blocks = exec.make_from(std::span<const BatchBlock>(batch.blocks));
     BatchPairs pairs;
-    std::array<gpu::Array<std::uint64_t>, kPrimitiveKinds> next;
+    std::array<executor::Array<std::uint64_t>, kPrimitiveKinds> next;
     ListPairs list{slot_of_block, blocks.data(), {}, {}};
     for (std::size_t k = 0; k < kPrimitiveKinds; ++k) {
         const std::span<const std::uint64_t> first(batch.first_pair[k]);
@@ -94,14 +94,14 @@ list_pairs(Exec& exec, const DeviceScene& scene, BlockBatch& batch, std::uint32_
 
 /// Gathers the single round curves of a batch.
 template <typename Exec>
-void gather_plain(Exec& exec, const FiberBatch& batch, const gpu::Array<BlockPair>& pairs) {
+void gather_plain(Exec& exec, const FiberBatch& batch, const executor::Array<BlockPair>& pairs) {
     exec.set_stage("gather of curves");
     exec.for_each(pairs.size(), GatherPlainOp{batch, pairs.data()});
 }
 
 /// Gathers the yarns of a batch.
 template <typename Exec>
-void gather_yarns(Exec& exec, const FiberBatch& batch, const gpu::Array<BlockPair>& pairs) {
+void gather_yarns(Exec& exec, const FiberBatch& batch, const executor::Array<BlockPair>& pairs) {
     const std::size_t n = pairs.size();
     if (n == 0) return;
     exec.set_stage("gather of yarns");
@@ -131,7 +131,7 @@ void gather_triangles(Exec& exec,
                       const DeviceScene& scene,
                       const DenseSums& sums,
                       const BatchPairs& pairs) {
-    const gpu::Array<BlockPair>& of_kind = pairs.of[number_of(Kind)];
+    const executor::Array<BlockPair>& of_kind = pairs.of[number_of(Kind)];
     exec.set_stage("gather of triangles");
     exec.for_each(of_kind.size(),
                   GatherTriangleOp<Kind>{scene.surfaces, scene.fibers.units, sums, of_kind.data()});

@@ -2,13 +2,13 @@
 
 #include <heddle/base/offset_search.h>
 #include <heddle/device/block_pairs_op.h>
-#include <heddle/device/dense_sums.h>
 #include <heddle/device/fiber_tables.h>
-#include <heddle/voxel/chord_op.h>
-#include <heddle/voxel/expand_op.h>
-#include <heddle/voxel/fiber_chords.h>
-#include <heddle/voxel/fiber_view.h>
-#include <heddle/voxel/lanes_one.h>
+#include <heddle/device/level/dense_sums.h>
+#include <heddle/voxelize/chord/chord_op.h>
+#include <heddle/voxelize/chord/expand_op.h>
+#include <heddle/voxelize/chord/fiber_chords.h>
+#include <heddle/voxelize/chord/lanes_one.h>
+#include <heddle/yarn/fiber_view.h>
 
 #include <cstddef>
 #include <cstdint>

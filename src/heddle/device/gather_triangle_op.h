@@ -1,8 +1,8 @@
 #pragma once
 
 #include <heddle/device/block_pairs_op.h>
-#include <heddle/device/dense_sums.h>
-#include <heddle/voxel/triangle_op.h>
+#include <heddle/device/level/dense_sums.h>
+#include <heddle/voxelize/triangle/triangle_op.h>
 
 #include <cstddef>
 

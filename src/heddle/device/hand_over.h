@@ -1,10 +1,10 @@
 #pragma once
 
-#include <heddle/device/batch_levels.h>
-#include <heddle/device/dense_sums.h>
+#include <heddle/device/level/batch_levels.h>
+#include <heddle/device/level/dense_sums.h>
 #include <heddle/lod/build_levels.h>
 #include <heddle/voxel/block_keeper.h>
-#include <heddle/voxel/fit_block.h>
+#include <heddle/voxelize/block/fit_block.h>
 
 #include <cstddef>
 #include <span>

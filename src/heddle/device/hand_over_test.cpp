@@ -1,7 +1,7 @@
 #include <heddle/device/hand_over.h>
 
 #include <heddle/device/voxelize_device.h>
-#include <heddle/voxel/test_swatch.h>
+#include <heddle/voxelize/test_swatch.h>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <heddle/gpu/array.h>
+#include <heddle/executor/array.h>
 
 #include <cstddef>
 #include <span>
@@ -9,7 +9,7 @@ namespace heddle::upload_detail {
 
 /// Copies n objects to where `exec` works, and points to the copy; null stays null.
 template <typename Exec, typename T>
-void replace(Exec& exec, gpu::Array<T>& held, const T*& data, std::size_t n) {
+void replace(Exec& exec, executor::Array<T>& held, const T*& data, std::size_t n) {
     if (data == nullptr) return;
     held = exec.make_from(std::span<const T>(data, n));
     data = held.data();

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <heddle/device/upload_array.h>
-#include <heddle/gpu/array.h>
-#include <heddle/voxel/fiber_source.h>
+#include <heddle/executor/array.h>
+#include <heddle/yarn/fiber_source.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -14,16 +14,16 @@ namespace heddle {
 struct FiberArrays {
     /// Of one curve set; arrays that the set lacks are empty.
     struct Set {
-        gpu::Array<Vec3f> points, normal;
-        gpu::Array<std::uint64_t> first, spans;
-        gpu::Array<std::uint8_t> closed;
-        gpu::Array<float> radius, closing;
-        gpu::Array<std::uint32_t> color;
-        gpu::Array<double> length;
+        executor::Array<Vec3f> points, normal;
+        executor::Array<std::uint64_t> first, spans;
+        executor::Array<std::uint8_t> closed;
+        executor::Array<float> radius, closing;
+        executor::Array<std::uint32_t> color;
+        executor::Array<double> length;
     };
     std::vector<Set> parts;
-    gpu::Array<CurveSetView> sets;
-    gpu::Array<std::uint64_t> first_span;
+    executor::Array<CurveSetView> sets;
+    executor::Array<std::uint64_t> first_span;
     FiberView view; ///< valid while this lives, moved or not
 };
 

@@ -1,8 +1,8 @@
 #include <heddle/device/upload_fibers.h>
-#include <heddle/gpu/host_executor.h>
-#include <heddle/voxel/bin_op.h>
-#include <heddle/voxel/test_swatch.h>
-#include <heddle/voxel/yarn_frame.h>
+#include <heddle/executor/host_executor.h>
+#include <heddle/voxelize/bin_op.h>
+#include <heddle/voxelize/chord/yarn_frame.h>
+#include <heddle/voxelize/test_swatch.h>
 
 #include <gtest/gtest.h>
 
@@ -49,8 +49,8 @@ struct WalkSpan {
     }
 };
 
-std::vector<SpanBits> walk(gpu::HostExecutor& exec, const FiberView& fibers) {
-    const gpu::Array<SpanBits> out = exec.make<SpanBits>(fibers.span_count);
+std::vector<SpanBits> walk(executor::HostExecutor& exec, const FiberView& fibers) {
+    const executor::Array<SpanBits> out = exec.make<SpanBits>(fibers.span_count);
     exec.for_each(fibers.span_count,
                   WalkSpan{fibers, {{-40, -500, -500}, {500, 500, 70}}, out.data()});
     std::vector<SpanBits> bits(fibers.span_count);
@@ -72,8 +72,8 @@ Geometry swatch_and_rings() {
 }
 
 TEST(UploadFibers, TheCopyGivesTheSourcesBitsWithoutTheSource) {
-    gpu::Budget budget(std::int64_t{1} << 30);
-    gpu::HostExecutor exec(budget);
+    executor::Budget budget(std::int64_t{1} << 30);
+    executor::HostExecutor exec(budget);
     std::vector<SpanBits> expected;
     FiberArrays arrays;
     {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <heddle/device/upload_array.h>
-#include <heddle/gpu/array.h>
-#include <heddle/voxel/surface_source.h>
+#include <heddle/executor/array.h>
+#include <heddle/surface/surface_source.h>
 
 #include <algorithm>
 #include <array>
@@ -18,24 +18,24 @@ namespace heddle {
 struct SurfaceArrays {
     /// Of one mesh; arrays that it lacks are empty.
     struct Mesh {
-        gpu::Array<Vec3f> positions, normals, move_normals;
-        gpu::Array<Tangent> tangents;
-        gpu::Array<Uv> uvs;
-        gpu::Array<std::array<std::uint32_t, 3>> triangles;
+        executor::Array<Vec3f> positions, normals, move_normals;
+        executor::Array<Tangent> tangents;
+        executor::Array<Uv> uvs;
+        executor::Array<std::array<std::uint32_t, 3>> triangles;
     };
     /// Of one averaged texture.
     struct Texture {
-        gpu::Array<std::uint8_t> image;
-        gpu::Array<std::uint16_t> decode;
-        std::vector<gpu::Array<Texel>> averages;
-        gpu::Array<TextureLevel> levels;
+        executor::Array<std::uint8_t> image;
+        executor::Array<std::uint16_t> decode;
+        std::vector<executor::Array<Texel>> averages;
+        executor::Array<TextureLevel> levels;
     };
     std::vector<Mesh> mesh_parts;
     std::vector<Texture> texture_parts;
-    gpu::Array<TextureView> textures;
-    gpu::Array<SurfaceMaps> materials;
-    gpu::Array<MeshView> meshes;
-    gpu::Array<std::uint64_t> first_triangle;
+    executor::Array<TextureView> textures;
+    executor::Array<SurfaceMaps> materials;
+    executor::Array<MeshView> meshes;
+    executor::Array<std::uint64_t> first_triangle;
     SurfaceView view; ///< valid while this lives, moved or not
 };
 

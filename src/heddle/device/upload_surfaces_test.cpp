@@ -1,11 +1,11 @@
 #include <heddle/base/random.h>
 #include <heddle/device/upload_surfaces.h>
+#include <heddle/executor/atomic.h>
+#include <heddle/executor/host_executor.h>
 #include <heddle/geom/generate.h>
-#include <heddle/gpu/atomic.h>
-#include <heddle/gpu/host_executor.h>
-#include <heddle/voxel/bin_op.h>
-#include <heddle/voxel/block_worker.h>
-#include <heddle/voxel/triangle_op.h>
+#include <heddle/voxelize/bin_op.h>
+#include <heddle/voxelize/block_worker.h>
+#include <heddle/voxelize/triangle/triangle_op.h>
 
 #include <gtest/gtest.h>
 
@@ -28,10 +28,10 @@ struct Dense {
     bool with_maps;
 
     HEDDLE_HD void or_column(int cell, int axis, std::uint64_t bits) const {
-        gpu::atomic_or(words + cell * kWords + axis, bits);
+        executor::atomic_or(words + cell * kWords + axis, bits);
     }
     HEDDLE_HD void or_subvoxels(int cell, int word, std::uint64_t bits) const {
-        gpu::atomic_or(words + cell * kWords + 3 + word, bits);
+        executor::atomic_or(words + cell * kWords + 3 + word, bits);
     }
     HEDDLE_HD void add_lobe(int cell, int field, std::int64_t x) const {
         add(cell * kWords + kLobe + field, x);
@@ -43,7 +43,7 @@ struct Dense {
 
 private:
     HEDDLE_HD void add(int at, std::int64_t x) const {
-        gpu::atomic_add(words + at, static_cast<std::uint64_t>(x));
+        executor::atomic_add(words + at, static_cast<std::uint64_t>(x));
     }
 };
 constexpr std::size_t kPlane = std::size_t{Dense::kWords} * BlockSums::kVoxels;
@@ -101,7 +101,7 @@ Words words_of(const BlockSums& sums, std::size_t materials) {
     return words;
 }
 
-Words gather_block(gpu::HostExecutor& exec, AddToBlock add) {
+Words gather_block(executor::HostExecutor& exec, AddToBlock add) {
     const std::size_t materials = add.surfaces.material_count;
     const auto words = exec.make_zero<std::uint64_t>(materials * kPlane);
     add.words = words.data();
@@ -121,8 +121,8 @@ Words gather_block(gpu::HostExecutor& exec, AddToBlock add) {
 /// All blocks of a scene: through an uploaded view as by the CPU's gatherer.
 /// @return  voxels that were hit
 int expect_same_sums(const Scene& scene) {
-    gpu::Budget budget(std::int64_t{1} << 32);
-    gpu::HostExecutor exec(budget);
+    executor::Budget budget(std::int64_t{1} << 32);
+    executor::HostExecutor exec(budget);
     const VoxelizeOptions options;
     const VoxelizeContext context(scene.geometry, options, scene.lattice, scene.lo, scene.hi);
     const SurfaceArrays arrays = upload_surfaces(exec, context.surfaces);
@@ -236,8 +236,8 @@ Geometry textured_balls() {
 }
 
 TEST(UploadSurfaces, TheCopyNeedsNothingOfTheSource) {
-    gpu::Budget budget(std::int64_t{1} << 30);
-    gpu::HostExecutor exec(budget);
+    executor::Budget budget(std::int64_t{1} << 30);
+    executor::HostExecutor exec(budget);
     const LatticeUnits units(Lattice{{0.06, 0.08, 0.05}, 4});
     const BlockRange range({-32, -32, -32}, {0, 0, 0});
     Words expected;

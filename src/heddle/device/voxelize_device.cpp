@@ -2,7 +2,7 @@
 
 #include <heddle/base/memory.h>
 #include <heddle/device/device_run.h>
-#include <heddle/gpu/host_executor.h>
+#include <heddle/executor/host_executor.h>
 
 namespace heddle {
 
@@ -48,9 +48,10 @@ std::unique_ptr<VoxelSource> voxelize_on_host_executor(const Geometry& geometry,
     DeviceOptions with_memory = device;
     if (device.memory_bytes == 0) with_memory.memory_bytes = available_bytes() / 10 * 9;
     const VoxelizeContext context(geometry, options, plan.lattice, plan.voxel_lo, plan.voxel_hi);
-    DeviceRun<gpu::HostExecutor> run(context, plan, with_memory, [&](gpu::Budget& budget) {
-        return std::make_unique<gpu::HostExecutor>(budget, device.vanish_after);
-    });
+    DeviceRun<executor::HostExecutor> run(
+        context, plan, with_memory, [&](executor::Budget& budget) {
+            return std::make_unique<executor::HostExecutor>(budget, device.vanish_after);
+        });
     return run.run(progress, levels);
 }
 
@@ -62,7 +63,7 @@ std::unique_ptr<VoxelSource> voxelize_on_cuda(const Geometry&,
                                               const DeviceOptions&,
                                               Progress&,
                                               LevelBuilder*) {
-    throw Error(ErrorCode::Device, "voxelize: " + gpu::find_device().why, "use the CPU");
+    throw Error(ErrorCode::Device, "voxelize: " + executor::find_device().why, "use the CPU");
 }
 
 #endif

@@ -1,7 +1,7 @@
 #include <heddle/device/voxelize_device.h>
 
 #include <heddle/device/device_run.h>
-#include <heddle/gpu/cuda_executor.cuh>
+#include <heddle/executor/cuda_executor.cuh>
 
 namespace heddle {
 
@@ -12,13 +12,13 @@ std::unique_ptr<VoxelSource> voxelize_on_cuda(const Geometry& geometry,
                                               Progress& progress,
                                               LevelBuilder* levels) {
     check_device_options(options, device);
-    const gpu::Device found = gpu::find_device();
+    const executor::Device found = executor::find_device();
     if (found.name.empty()) throw Error(ErrorCode::Device, "voxelize: " + found.why, "use the CPU");
     DeviceOptions with_memory = device;
     if (device.memory_bytes == 0) with_memory.memory_bytes = found.free_bytes / 10 * 9;
     const VoxelizeContext context(geometry, options, plan.lattice, plan.voxel_lo, plan.voxel_hi);
-    DeviceRun<gpu::CudaExecutor> run(context, plan, with_memory, [](gpu::Budget& budget) {
-        return std::make_unique<gpu::CudaExecutor>(budget);
+    DeviceRun<executor::CudaExecutor> run(context, plan, with_memory, [](executor::Budget& budget) {
+        return std::make_unique<executor::CudaExecutor>(budget);
     });
     return run.run(progress, levels);
 }

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <heddle/base/progress.h>
-#include <heddle/gpu/device.h>
+#include <heddle/executor/device.h>
 #include <heddle/lod/build_levels.h>
-#include <heddle/voxel/voxelize.h>
+#include <heddle/voxelize/voxelize.h>
 
 #include <cstdint>
 #include <memory>

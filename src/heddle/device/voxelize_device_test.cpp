@@ -1,5 +1,5 @@
 #include <heddle/device/voxelize_device.h>
-#include <heddle/voxel/test_swatch.h>
+#include <heddle/voxelize/test_swatch.h>
 
 #include <gtest/gtest.h>
 

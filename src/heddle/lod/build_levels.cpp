@@ -354,6 +354,69 @@ VoxelLevels LevelBuilder::finish(std::unique_ptr<VoxelSource> level0) {
     return levels;
 }
 
+namespace {
+
+/// Bytes of a block's pieces of leaves and nodes that wait, a level above the blocks.
+constexpr std::int64_t kPieceBytes = 700;
+
+/// Levels up to kBlockLevel by the sample of blocks, the others by counting the blocks' ancestors.
+/// @param sample  sums over the sampled blocks of levels 1 to kBlockLevel
+std::vector<LevelSize>
+predict_levels(std::span<const LevelSize> sample, const LevelPlanInput& input, int top) {
+    const auto scaled = [&](std::int64_t n) {
+        return static_cast<std::int64_t>(static_cast<double>(n) * input.scale + 0.5);
+    };
+    std::vector<LevelSize> levels;
+    double lobes_per_voxel = 1.0;
+    for (int l = 1; l <= top; ++l) {
+        LevelSize& level = levels.emplace_back();
+        if (l <= kBlockLevel) {
+            const LevelSize& seen = sample[static_cast<std::size_t>(l - 1)];
+            level = {scaled(seen.leaves), scaled(seen.voxels), scaled(seen.lobes)};
+            if (seen.voxels > 0) {
+                lobes_per_voxel =
+                    static_cast<double>(seen.lobes) / static_cast<double>(seen.voxels);
+            }
+        } else {
+            level.voxels = count_cells(input.blocks, l - kBlockLevel);
+            level.lobes =
+                static_cast<std::int64_t>(static_cast<double>(level.voxels) * lobes_per_voxel);
+        }
+        if (l > kWholeLeafLevel) level.leaves = count_cells(input.blocks, l - kWholeLeafLevel);
+    }
+    return levels;
+}
+
+/// Bytes of the columns of the voxels that are open at a time above the blocks: two runs a level.
+std::int64_t predict_open_columns(std::span<const Vec3i> blocks, int top) {
+    const std::int64_t rows = count_rows(blocks);
+    std::int64_t runs = 0;
+    for (int l = kBlockLevel; l <= top; ++l) {
+        const std::int64_t whole = std::int64_t{3} << (2 * std::min(l - kBlockLevel, 20));
+        runs += 2 * std::min(whole, rows);
+    }
+    return runs * static_cast<std::int64_t>(sizeof(UpperVoxel::Run::element_type));
+}
+
+/// Bytes of all columns of all levels, which correlation keeps until the end.
+std::int64_t predict_kept_columns(const LevelPlanInput& input,
+                                  const std::vector<LevelSize>& levels) {
+    if (!input.correlation) return 0;
+    const auto column_bytes = [](int level) { return std::int64_t{24} << (2 * level); };
+    const auto voxels = [&](int level) {
+        return levels[static_cast<std::size_t>(level - 1)].voxels;
+    };
+    const int top = static_cast<int>(levels.size());
+    std::int64_t kept = column_bytes(0) * input.voxels;
+    for (int l = 1; l <= std::min(top, kBlockLevel); ++l) kept += column_bytes(l) * voxels(l);
+    if (top > kBlockLevel) { // each level above holds half of the one below, or less
+        kept += column_bytes(kBlockLevel) * voxels(kBlockLevel);
+    }
+    return kept;
+}
+
+} // namespace
+
 void LevelBuilder::sample(const VoxelGridInfo& info, Vec3i index, const VoxelBlock& block) {
     const LevelOptions options = level_options(options_, info, with_columns_);
     sample_->workspaces.with([&](Workspace& work) {
@@ -371,53 +434,18 @@ void LevelBuilder::sample(const VoxelGridInfo& info, Vec3i index, const VoxelBlo
     });
 }
 
-void LevelBuilder::plan(std::span<const Vec3i> blocks, double scale, VoxelizePlan& plan) {
+LevelPlan LevelBuilder::plan(const LevelPlanInput& input) {
     const int top =
-        std::min(options_.max_levels, level_count(plan.voxel_lo, plan.voxel_hi - Vec3i{1, 1, 1}));
-    const auto scaled = [&](std::int64_t n) {
-        return static_cast<std::int64_t>(static_cast<double>(n) * scale + 0.5);
-    };
-    double lobes_per_voxel = 1.0;
-    for (int l = 1; l <= top; ++l) {
-        LevelSize& level = plan.levels.emplace_back();
-        if (l <= kBlockLevel) {
-            const LevelSize& seen = sample_->level[static_cast<std::size_t>(l - 1)];
-            level = {scaled(seen.leaves), scaled(seen.voxels), scaled(seen.lobes)};
-            if (seen.voxels > 0) {
-                lobes_per_voxel =
-                    static_cast<double>(seen.lobes) / static_cast<double>(seen.voxels);
-            }
-        } else {
-            level.voxels = count_cells(blocks, l - kBlockLevel);
-            level.lobes =
-                static_cast<std::int64_t>(static_cast<double>(level.voxels) * lobes_per_voxel);
-        }
-        if (l > kWholeLeafLevel) level.leaves = count_cells(blocks, l - kWholeLeafLevel);
-    }
-    // pieces of leaves, nodes that wait, and the columns of the voxels that are open: two a level
-    constexpr std::int64_t kPieceBytes = 700;
-    const std::int64_t rows = count_rows(blocks);
-    std::int64_t runs = 0;
-    for (int l = kBlockLevel; l <= top; ++l) {
-        const std::int64_t whole = std::int64_t{3} << (2 * std::min(l - kBlockLevel, 20));
-        runs += 2 * std::min(whole, rows);
-    }
-    std::int64_t kept = 0; // all columns of all levels
-    if (plan.fields.correlation) {
-        kept = 24 * plan.voxels;
-        for (int l = 1; l <= std::min(top, kBlockLevel); ++l) {
-            kept +=
-                (std::int64_t{24} << (2 * l)) * plan.levels[static_cast<std::size_t>(l - 1)].voxels;
-        }
-        if (top > kBlockLevel) { // each level above holds half of the one below, or less
-            kept += (std::int64_t{24} << (2 * kBlockLevel)) * plan.levels[kBlockLevel - 1].voxels;
-        }
-    }
-    const auto count = static_cast<std::int64_t>(blocks.size());
-    plan.visitor_bytes = kept + thread_count() * sample_->workspace_bytes +
-                         runs * static_cast<std::int64_t>(sizeof(UpperVoxel::Run::element_type)) +
-                         count * kPieceBytes * std::clamp(top - kWholeLeafLevel, 0, 4);
-    plan.visitor_seconds = top > 0 ? kSecondsPerVoxel * static_cast<double>(plan.voxels) : 0.0;
+        std::min(options_.max_levels, level_count(input.voxel_lo, input.voxel_hi - Vec3i{1, 1, 1}));
+    LevelPlan plan;
+    plan.levels = predict_levels(sample_->level, input, top);
+    const auto blocks = static_cast<std::int64_t>(input.blocks.size());
+    plan.workspace_bytes = predict_kept_columns(input, plan.levels) +
+                           thread_count() * sample_->workspace_bytes +
+                           predict_open_columns(input.blocks, top) +
+                           blocks * kPieceBytes * std::clamp(top - kWholeLeafLevel, 0, 4);
+    plan.thread_seconds = top > 0 ? kSecondsPerVoxel * static_cast<double>(input.voxels) : 0.0;
+    return plan;
 }
 
 } // namespace heddle

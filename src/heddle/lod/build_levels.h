@@ -2,7 +2,7 @@
 
 #include <heddle/base/progress.h>
 #include <heddle/lod/method.h>
-#include <heddle/voxel/voxelize.h>
+#include <heddle/voxel/block_visitor.h>
 
 #include <cstdint>
 #include <memory>
@@ -47,7 +47,7 @@ public:
                const std::string& spool_dir) override;
     void visit(std::size_t rank, const VoxelBlock& block) override;
     void sample(const VoxelGridInfo& info, Vec3i index, const VoxelBlock& block) override;
-    void plan(std::span<const Vec3i> blocks, double scale, VoxelizePlan& plan) override;
+    [[nodiscard]] LevelPlan plan(const LevelPlanInput& input) override;
 
     /// What levels that come by accept() are built with, after begin(). Null: blocks have to be visited,
     /// since the method is not `moments`, columns are missing, or neighbours share something.

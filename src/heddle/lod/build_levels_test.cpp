@@ -3,8 +3,8 @@
 #include <heddle/lod/rebuild_levels.h>
 #include <heddle/sggx/moments.h>
 #include <heddle/sggx/pack.h>
-#include <heddle/voxel/test_bundle.h>
-#include <heddle/voxel/test_swatch.h>
+#include <heddle/voxelize/test_bundle.h>
+#include <heddle/voxelize/test_swatch.h>
 
 #include <algorithm>
 #include <set>

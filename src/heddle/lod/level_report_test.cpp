@@ -7,7 +7,7 @@
 #include <heddle/sggx/moments.h>
 #include <heddle/sggx/pack.h>
 #include <heddle/voxel/test_grid.h>
-#include <heddle/voxel/test_swatch.h>
+#include <heddle/voxelize/test_swatch.h>
 
 #include <set>
 

@@ -1,7 +1,7 @@
 #include <heddle/lod/build_levels.h>
 #include <heddle/lod/lookup.h>
 #include <heddle/voxel/test_grid.h>
-#include <heddle/voxel/test_swatch.h>
+#include <heddle/voxelize/test_swatch.h>
 
 #include <limits>
 #include <set>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <heddle/raster/voxelize_slices.h>
-#include <heddle/voxel/accumulator.h>
+#include <heddle/voxelize/block/accumulator.h>
 
 #include <cstdint>
 #include <span>

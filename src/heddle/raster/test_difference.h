@@ -2,7 +2,7 @@
 
 #include <heddle/sggx/eigen.h>
 #include <heddle/slice/test_slices.h>
-#include <heddle/voxel/test_voxelize.h>
+#include <heddle/voxelize/test_voxelize.h>
 
 #include <algorithm>
 #include <cmath>

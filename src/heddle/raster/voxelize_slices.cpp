@@ -8,7 +8,7 @@
 #include <heddle/raster/draw_bricks.h>
 #include <heddle/raster/slab_pass.h>
 #include <heddle/voxel/block_keeper.h>
-#include <heddle/voxel/block_worker.h>
+#include <heddle/voxelize/block_worker.h>
 
 #include <algorithm>
 #include <chrono>

@@ -2,7 +2,7 @@
 
 #include <heddle/base/progress.h>
 #include <heddle/geom/geometry.h>
-#include <heddle/voxel/voxelize.h>
+#include <heddle/voxelize/voxelize.h>
 
 #include <cstdint>
 #include <memory>

@@ -2,8 +2,8 @@
 
 #include <heddle/base/error.h>
 #include <heddle/base/nearest_name.h>
-#include <heddle/io/input_file.h>
-#include <heddle/io/toml_text.h>
+#include <heddle/io/file/input_file.h>
+#include <heddle/io/file/toml_text.h>
 #include <heddle/scene/scene_parts.h>
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 
 #include <heddle/base/error.h>
 #include <heddle/base/nearest_name.h>
-#include <heddle/io/input_file.h>
-#include <heddle/io/yarn_file_form.h>
+#include <heddle/io/file/input_file.h>
+#include <heddle/io/yarn/yarn_file_form.h>
 
 #include <algorithm>
 #include <filesystem>

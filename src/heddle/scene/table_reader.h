@@ -1,7 +1,7 @@
 #pragma once
 
 #include <heddle/base/vec.h>
-#include <heddle/io/problems.h>
+#include <heddle/io/file/problems.h>
 
 #include <toml++/toml.h>
 

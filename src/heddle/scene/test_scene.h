@@ -1,7 +1,7 @@
 #pragma once
 
 #include <heddle/base/error.h>
-#include <heddle/io/test_files.h>
+#include <heddle/io/file/test_files.h>
 #include <heddle/scene/scene.h>
 
 #include <gtest/gtest.h>

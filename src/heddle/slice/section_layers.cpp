@@ -3,7 +3,7 @@
 #include <heddle/base/error.h>
 #include <heddle/base/parallel.h>
 #include <heddle/base/random.h>
-#include <heddle/geom/fiber_table.h>
+#include <heddle/yarn/fiber_table.h>
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <heddle/opengl/shader.h>
 #include <heddle/slice/slice_glsl.h>
 #include <heddle/slice/test_slices.h>
-#include <heddle/voxel/fiber_source.h>
+#include <heddle/yarn/fiber_source.h>
 
 #include <gtest/gtest.h>
 

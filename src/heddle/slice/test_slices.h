@@ -1,7 +1,7 @@
 #pragma once
 
-#include <heddle/geom/slice_image.h>
-#include <heddle/voxel/test_voxelize.h>
+#include <heddle/voxelize/test_voxelize.h>
+#include <heddle/yarn/slice_image.h>
 
 #include <array>
 #include <cmath>

@@ -2,8 +2,8 @@
 
 #include <heddle/base/error.h>
 #include <heddle/base/random.h>
-#include <heddle/io/input_file.h>
-#include <heddle/io/output_file.h>
+#include <heddle/io/file/input_file.h>
+#include <heddle/io/file/output_file.h>
 
 #include <array>
 #include <cstring>

@@ -2,8 +2,8 @@
 
 #include <heddle/base/error.h>
 #include <heddle/io/exr/exr.h>
+#include <heddle/io/file/input_file.h>
 #include <heddle/io/image/image.h>
-#include <heddle/io/input_file.h>
 
 #include <cmath>
 #include <numbers>

@@ -1,6 +1,6 @@
 #include <heddle/io/exr/exr.h>
 
-#include <heddle/io/test_files.h>
+#include <heddle/io/file/test_files.h>
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfHeader.h>

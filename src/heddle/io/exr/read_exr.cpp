@@ -2,7 +2,7 @@
 
 #include <heddle/base/error.h>
 #include <heddle/io/exr/exr_header.h>
-#include <heddle/io/input_file.h>
+#include <heddle/io/file/input_file.h>
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>

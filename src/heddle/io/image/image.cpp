@@ -1,8 +1,8 @@
 #include <heddle/io/image/image.h>
 
 #include <heddle/base/error.h>
-#include <heddle/io/input_file.h>
-#include <heddle/io/output_file.h>
+#include <heddle/io/file/input_file.h>
+#include <heddle/io/file/output_file.h>
 
 #include <limits>
 #include <memory>

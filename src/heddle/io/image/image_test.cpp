@@ -1,7 +1,7 @@
 #include <heddle/io/image/image.h>
 
 #include <heddle/base/error.h>
-#include <heddle/io/test_files.h>
+#include <heddle/io/file/test_files.h>
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 #include <heddle/io/mesh/find_image.h>
 
 #include <heddle/base/error.h>
+#include <heddle/io/file/input_file.h>
 #include <heddle/io/image/image.h>
-#include <heddle/io/input_file.h>
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 #include <heddle/io/mesh/ply_data.h>
 
 #include <heddle/base/error.h>
-#include <heddle/io/input_file.h>
+#include <heddle/io/file/input_file.h>
 
 #include <algorithm>
 #include <array>

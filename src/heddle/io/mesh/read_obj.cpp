@@ -1,7 +1,7 @@
 #include <heddle/io/mesh/read_mesh.h>
 
 #include <heddle/base/error.h>
-#include <heddle/io/input_file.h>
+#include <heddle/io/file/input_file.h>
 #include <heddle/io/mesh/add_parts.h>
 #include <heddle/io/mesh/obj_material.h>
 #include <heddle/io/mesh/obj_text.h>

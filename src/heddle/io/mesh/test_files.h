@@ -1,6 +1,6 @@
 #pragma once
 
-#include <heddle/io/test_files.h>
+#include <heddle/io/file/test_files.h>
 
 #include <gtest/gtest.h>
 

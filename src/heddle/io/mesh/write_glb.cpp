@@ -2,8 +2,8 @@
 
 #include <heddle/base/error.h>
 #include <heddle/geom/bounds.h>
+#include <heddle/io/file/output_file.h>
 #include <heddle/io/image/image.h>
-#include <heddle/io/output_file.h>
 
 #include <nlohmann/json.hpp>
 #include <array>

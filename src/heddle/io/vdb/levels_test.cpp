@@ -1,5 +1,5 @@
 #include <heddle/base/error.h>
-#include <heddle/io/test_files.h>
+#include <heddle/io/file/test_files.h>
 #include <heddle/io/vdb/content_hash.h>
 #include <heddle/io/vdb/predict_vdb.h>
 #include <heddle/io/vdb/read_vdb.h>

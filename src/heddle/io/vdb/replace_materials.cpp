@@ -1,8 +1,8 @@
 #include <heddle/io/vdb/replace_materials.h>
 
 #include <heddle/base/error.h>
-#include <heddle/io/input_file.h>
-#include <heddle/io/output_file.h>
+#include <heddle/io/file/input_file.h>
+#include <heddle/io/file/output_file.h>
 #include <heddle/io/vdb/info_json.h>
 #include <heddle/io/vdb/read_vdb.h>
 #include <heddle/io/vdb/vdb_file.h>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <heddle/base/random.h>
-#include <heddle/io/test_files.h>
+#include <heddle/io/file/test_files.h>
 #include <heddle/voxel/test_grid.h>
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 #include <heddle/base/error.h>
-#include <heddle/io/input_file.h>
+#include <heddle/io/file/input_file.h>
 #include <heddle/io/vdb/vdb_file.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include <heddle/io/vdb/write_vdb.h>
 
-#include <heddle/io/output_file.h>
+#include <heddle/io/file/output_file.h>
 #include <heddle/io/vdb/grid_writer.h>
 #include <heddle/io/vdb/info_json.h>
 #include <heddle/io/vdb/level_grids.h>

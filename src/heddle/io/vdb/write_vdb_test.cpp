@@ -1,6 +1,6 @@
 #include <heddle/base/error.h>
 #include <heddle/base/parallel.h>
-#include <heddle/io/test_files.h>
+#include <heddle/io/file/test_files.h>
 #include <heddle/io/vdb/content_hash.h>
 #include <heddle/io/vdb/grid_name.h>
 #include <heddle/io/vdb/predict_vdb.h>

@@ -2,7 +2,7 @@
 
 // Volumes made of bytes, for the tests of this room.
 
-#include <heddle/io/test_files.h>
+#include <heddle/io/file/test_files.h>
 #include <heddle/io/vol/read_vol.h>
 #include <heddle/voxel/voxel_grid.h>
 

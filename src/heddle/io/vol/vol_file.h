@@ -2,7 +2,7 @@
 
 #include <heddle/base/vec.h>
 #include <heddle/geom/bounds.h>
-#include <heddle/io/input_file.h>
+#include <heddle/io/file/input_file.h>
 
 #include <cstdint>
 #include <string>

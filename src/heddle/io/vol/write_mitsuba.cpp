@@ -2,7 +2,7 @@
 
 #include <heddle/base/error.h>
 #include <heddle/base/memory.h>
-#include <heddle/io/output_file.h>
+#include <heddle/io/file/output_file.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include <heddle/io/vol/write_mitsuba06.h>
 
 #include <heddle/base/error.h>
-#include <heddle/io/output_file.h>
+#include <heddle/io/file/output_file.h>
 #include <heddle/io/vol/vol_dictionary.h>
 #include <heddle/sggx/eigen.h>
 #include <heddle/sggx/pack.h>

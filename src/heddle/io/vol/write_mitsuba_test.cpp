@@ -1,7 +1,7 @@
 #include <heddle/io/vol/write_mitsuba.h>
 
 #include <heddle/base/error.h>
-#include <heddle/io/test_files.h>
+#include <heddle/io/file/test_files.h>
 #include <heddle/sggx/moments.h>
 #include <heddle/sggx/pack.h>
 

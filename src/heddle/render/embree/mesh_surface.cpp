@@ -46,7 +46,7 @@ struct Along {
     float handedness = 1.0f;
 };
 
-/// Where u grows on the triangle.                        as in voxel/surface_op.h
+/// Where u grows on the triangle.                        as in surface/surface_op.h
 Along along_u(const Mesh& mesh, std::uint32_t triangle, Vec3f normal) {
     const auto& c = mesh.triangles[triangle];
     if (mesh.uvs.empty()) return {any_perpendicular(normal), 1.0f};

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <heddle/geom/geometry.h>
-#include <heddle/voxel/texture_filter.h>
+#include <heddle/surface/texture_filter.h>
 
 #include <cstdint>
 #include <memory>

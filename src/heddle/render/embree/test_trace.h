@@ -2,7 +2,7 @@
 
 #include <heddle/base/random.h>
 #include <heddle/render/embree/embree_scene.h>
-#include <heddle/voxel/test_voxelize.h>
+#include <heddle/voxelize/test_voxelize.h>
 
 #include <memory>
 #include <utility>

@@ -2,7 +2,7 @@
 
 #include <heddle/base/progress.h>
 #include <heddle/render/embree/round_curves.h>
-#include <heddle/voxel/fiber_source.h>
+#include <heddle/yarn/fiber_source.h>
 
 #include <cstdint>
 

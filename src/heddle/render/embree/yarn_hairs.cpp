@@ -3,7 +3,7 @@
 #include <heddle/base/error.h>
 #include <heddle/base/parallel.h>
 #include <heddle/render/embree/yarn_path.h>
-#include <heddle/voxel/flyaway.h>
+#include <heddle/yarn/flyaway.h>
 
 #include <cmath>
 #include <limits>

@@ -1,6 +1,6 @@
 #include <heddle/render/embree/yarn_path.h>
 
-#include <heddle/voxel/flyaway.h>
+#include <heddle/yarn/flyaway.h>
 
 namespace heddle {
 namespace {

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <heddle/base/trig.h>
-#include <heddle/geom/fiber_table.h>
 #include <heddle/render/embree/round_curves.h>
-#include <heddle/voxel/fiber_source.h>
+#include <heddle/yarn/fiber_source.h>
+#include <heddle/yarn/fiber_table.h>
 
 #include <cmath>
 #include <cstdint>

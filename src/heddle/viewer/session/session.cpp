@@ -1,8 +1,8 @@
 #include <heddle/viewer/session/session.h>
 
 #include <heddle/base/error.h>
+#include <heddle/io/file/output_file.h>
 #include <heddle/io/image/image.h>
-#include <heddle/io/output_file.h>
 #include <heddle/io/vdb/write_vdb.h>
 #include <heddle/viewer/session/save_scene.h>
 #include <heddle/viewer/session/voxelize_seen.h>

@@ -2,7 +2,7 @@
 
 #include <heddle/io/vdb/read_vdb.h>
 #include <heddle/opengl/context.h>
-#include <heddle/voxel/test_voxelize.h>
+#include <heddle/voxelize/test_voxelize.h>
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <heddle/geom/geometry.h>
 #include <heddle/raster/voxelize_slices.h>
 #include <heddle/viewer/session/job.h>
-#include <heddle/voxel/voxelize.h>
+#include <heddle/voxelize/voxelize.h>
 
 namespace heddle::viewer {
 

@@ -1,7 +1,7 @@
 #include <heddle/viewer/session/yarn_edit.h>
 
 #include <heddle/viewer/orbit.h>
-#include <heddle/voxel/test_voxelize.h>
+#include <heddle/voxelize/test_voxelize.h>
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,9 @@
 
 #include <heddle/base/error.h>
 #include <heddle/geom/generate.h>
-#include <heddle/geom/slice_image.h>
 #include <heddle/viewer/volume/voxel_view.h>
-#include <heddle/voxel/test_voxelize.h>
+#include <heddle/voxelize/test_voxelize.h>
+#include <heddle/yarn/slice_image.h>
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <heddle/geom/slice_image.h>
 #include <heddle/render/camera.h>
 #include <heddle/slice/section_layers.h>
 #include <heddle/slice/slices.h>
 #include <heddle/viewer/orbit.h>
 #include <heddle/viewer/slice/slice_view.h>
 #include <heddle/viewer/slice/view_sections.h>
+#include <heddle/yarn/slice_image.h>
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #include <heddle/viewer/slice/view_sections.h>
 
 #include <heddle/base/error.h>
-#include <heddle/geom/slice_image.h>
+#include <heddle/yarn/slice_image.h>
 
 #include <epoxy/gl.h>
 

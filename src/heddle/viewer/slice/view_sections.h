@@ -13,7 +13,7 @@ namespace heddle::viewer {
 [[nodiscard]] std::vector<std::vector<std::uint8_t>>
 bake_light(const Geometry& geometry, const slice::SectionLayers& sections);
 
-/// The sections for pictures: colour and alpha in sizes that keep opacity (geom/slice_image.h), and
+/// The sections for pictures: colour and alpha in sizes that keep opacity (yarn/slice_image.h), and
 /// the light that occlusion leaves.
 class ViewSections {
 public:

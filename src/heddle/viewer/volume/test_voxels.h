@@ -4,7 +4,7 @@
 #include <heddle/viewer/volume/voxel_tables.h>
 #include <heddle/viewer/volume/voxel_view.h>
 #include <heddle/voxel/test_grid.h>
-#include <heddle/voxel/test_voxelize.h>
+#include <heddle/voxelize/test_voxelize.h>
 
 #include <array>
 #include <cmath>

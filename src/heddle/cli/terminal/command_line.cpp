@@ -1,0 +1,199 @@
+#include <heddle/base/error.h>
+#include <heddle/base/nearest_name.h>
+#include <heddle/cli/terminal/command_line.h>
+#include <heddle/cli/terminal/text.h>
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+
+namespace heddle::cli {
+namespace {
+
+std::vector<Option> with_common(const Command& command) {
+    std::vector<Option> options = command.options;
+    const std::vector<Option>& common = common_options();
+    options.insert(options.end(), common.begin(), common.end());
+    return options;
+}
+
+/// The long names, or what stands in for them: what an error calls an option, and what is suggested.
+std::string spoken_name(const Option& option) {
+    return option.positional() ? option.names : "--" + option.key();
+}
+
+[[noreturn]] void
+refuse_extra(const Command& command, const std::vector<Option>& options, const std::string& word) {
+    const std::string see = str("see heddle ", command.name, " --help");
+    if (word.size() < 2 || word.front() != '-') {
+        throw UsageError(str("unexpected argument '", word, "'; ", see));
+    }
+    const std::string name = word.substr(0, word.find('='));
+    std::vector<std::string> known;
+    for (const Option& option : options) {
+        if (!option.positional()) known.push_back(option.key());
+    }
+    const std::size_t dashes = std::min(name.find_first_not_of('-'), name.size());
+    const std::string_view near = nearest_name(std::string_view(name).substr(dashes), known);
+    throw UsageError(str("unknown option '", name, "'; ",
+                         near.empty() ? see : str("did you mean '--", near, "'?")));
+}
+
+void check_values(const Option& option, const std::vector<std::string>& values) {
+    if (values.size() > 1 && !option.repeats) {
+        throw UsageError(str(spoken_name(option), " is given ", values.size(), " times"));
+    }
+    for (const std::string& value : values) {
+        const std::string problem = option.values.problem(value);
+        if (!problem.empty()) throw UsageError(str(spoken_name(option), ": ", problem));
+    }
+}
+
+/// The values given to each option, unchecked; a flag's is its name.
+std::vector<std::vector<std::string>> sort_words(const Command& command,
+                                                 const std::vector<Option>& options,
+                                                 const std::vector<std::string>& words) {
+    CLI::App app;
+    app.set_help_flag();
+    app.allow_extras();
+    std::vector<std::vector<std::string>> values(options.size());
+    for (std::size_t i = 0; i < options.size(); ++i) {
+        std::string names = options[i].names;
+        std::erase(names, ' ');
+        if (options[i].values.kind == ValueKind::Flag) {
+            app.add_flag_callback(names, [&, i] { values[i].push_back(options[i].names); });
+            continue;
+        }
+        CLI::Option* parsed = app.add_option(names, values[i]);
+        parsed->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+        parsed->expected(1)->allow_extra_args(false)->type_name(options[i].metavar);
+    }
+    try {
+        // the library takes the words last one first
+        app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+    } catch (const CLI::ParseError& e) {
+        throw UsageError(e.what());
+    }
+    std::vector<std::string> extra = app.remaining();
+    std::erase(extra, "--"); // the mark before words that are no options
+    if (!extra.empty()) {
+        const auto option = std::find_if(extra.begin(), extra.end(), [](const std::string& word) {
+            return word.size() > 1 && word.front() == '-';
+        });
+        refuse_extra(command, options, option != extra.end() ? *option : extra.front());
+    }
+    return values;
+}
+
+/// "scene units; > 0; default 512": what --help puts in brackets.
+std::string bracket(const Option& option) {
+    std::string text;
+    const auto add = [&text](const std::string& part) {
+        if (!part.empty()) text += (text.empty() ? "" : "; ") + part;
+    };
+    add(option.unit);
+    if (option.repeats) add("may be given again");
+    add(option.values.range());
+    if (!option.preset.empty()) {
+        add(option.preset.front() == '('
+                ? "else " + option.preset.substr(1, option.preset.size() - 2)
+                : "default " + option.preset);
+    }
+    return text.empty() ? "" : " [" + text + "]";
+}
+
+std::string left_column(const Option& option) {
+    return option.metavar.empty() ? option.names : option.names + " " + option.metavar;
+}
+
+std::string escape_bars(std::string text) {
+    for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) {
+        text.insert(at, "\\");
+    }
+    return text;
+}
+
+std::string markdown_row(const Option& option) {
+    std::string preset = option.preset;
+    if (!preset.empty() && preset.front() == '(') preset = preset.substr(1, preset.size() - 2);
+    if (option.required) preset = "required";
+    return str("| `", escape_bars(left_column(option)), "` | ", escape_bars(preset), " | ",
+               escape_bars(option.values.range()), " | ", option.unit, " | ",
+               escape_bars(option.text), " |\n");
+}
+
+std::string markdown_table(const std::string& title, const std::vector<Option>& options) {
+    std::string text =
+        str("**", title, "**\n\n| option | default | range | unit | what it does |\n",
+            "|---|---|---|---|---|\n");
+    for (const Option& option : options) text += markdown_row(option);
+    return text + "\n";
+}
+
+} // namespace
+
+const std::vector<Option>& common_options() {
+    static const std::vector<Option> options{
+        {"--threads", "N", "0", integer(0, 4096), "", "threads to use; 0 = all cores"},
+        {"--seed", "N", "0", integer(0, 4294967295), "", "of all that is random"},
+        {"--json", "", "", flag(), "", "results as one JSON object"},
+        {"--quiet", "", "", flag(), "", "no progress, notes or table: errors only"},
+        {"-h, --help", "", "", flag(), "", "this text"},
+    };
+    return options;
+}
+
+bool wants_help(const std::vector<std::string>& words) {
+    return std::any_of(words.begin(), words.end(),
+                       [](const std::string& word) { return word == "--help" || word == "-h"; });
+}
+
+Arguments parse_arguments(const Command& command,
+                          const std::vector<std::string>& words,
+                          const std::string& command_line) {
+    const std::vector<Option> options = with_common(command);
+    const std::vector<std::vector<std::string>> values = sort_words(command, options, words);
+    Arguments arguments;
+    arguments.command_line = command_line;
+    for (std::size_t i = 0; i < options.size(); ++i) {
+        const Option& option = options[i];
+        arguments.set_preset(option.key(), option.preset);
+        if (!values[i].empty()) {
+            check_values(option, values[i]);
+            arguments.set(option.key(), values[i]);
+        } else if (option.required) {
+            throw UsageError(str(option.positional() ? "" : "option ", spoken_name(option),
+                                 " is missing; see heddle ", command.name, " --help"));
+        }
+    }
+    return arguments;
+}
+
+std::string help_text(const Command& command) {
+    std::string usage = "heddle " + command.name;
+    for (const Option& option : command.options) {
+        if (!option.required) continue;
+        usage += " " + option.names.substr(0, option.names.find(','));
+        if (!option.metavar.empty()) usage += " " + option.metavar;
+    }
+    const std::vector<Option> options = with_common(command);
+    std::size_t width = 0;
+    for (const Option& option : options) width = std::max(width, left_column(option).size());
+    std::string text = str("usage: ", usage, " [options]\n", command.summary, "\n\n");
+    for (const Option& option : options) {
+        const std::string left = left_column(option);
+        text += str("  ", left, std::string(width + 2 - left.size(), ' '), option.text,
+                    bracket(option), "\n");
+    }
+    return text;
+}
+
+std::string markdown_tables(const std::vector<Command>& commands) {
+    std::string text;
+    for (const Command& command : commands) {
+        text += markdown_table("heddle " + command.name, command.options);
+    }
+    return text + markdown_table("every command", common_options());
+}
+
+} // namespace heddle::cli

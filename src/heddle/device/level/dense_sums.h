@@ -1,0 +1,90 @@
+#pragma once
+
+#include <heddle/base/bits.h>
+#include <heddle/base/platform.h>
+#include <heddle/device/level/block_cell.h>
+#include <heddle/executor/atomic.h>
+#include <heddle/voxelize/chord/gather_chord.h>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace heddle {
+
+/// What one material of one block is gathered into, where an executor works: as FiberSums on the CPU,
+/// with a place for every voxel. All adding is atomic and of integers.
+struct DenseLobe {
+    static constexpr int kMaskWords = 12; ///< columns along x, y, z; 8 of subvoxels; a spare one
+    static constexpr int kLobeWords = 8;  ///< moment xx yy zz xy xz yz, weight; a spare one
+    static constexpr int kMapWords = 12;  ///< as MapSums lies
+
+    std::uint64_t* masks = nullptr; ///< kMaskWords a voxel, by (x 32 + y) 32 + z
+    std::uint64_t* lobes = nullptr; ///< kLobeWords a voxel, two's complement
+    std::uint64_t* maps = nullptr;  ///< kMapWords a voxel; null without maps
+    std::uint32_t color = 0xffffff; ///< of a fiber
+
+    HEDDLE_HD void or_column(int cell, int axis, std::uint64_t bits) const {
+        executor::atomic_or(masks + cell * kMaskWords + axis, bits);
+    }
+    /// @param word  of the voxel's subvoxels: bit (x n + y) n + z over all words
+    HEDDLE_HD void or_subvoxels(int cell, int word, std::uint64_t bits) const {
+        executor::atomic_or(masks + cell * kMaskWords + 3 + word, bits);
+    }
+    HEDDLE_HD void add_lobe(int cell, int field, std::int64_t x) const {
+        executor::atomic_add(lobes + cell * kLobeWords + field, static_cast<std::uint64_t>(x));
+    }
+    [[nodiscard]] HEDDLE_HD bool has_maps() const { return maps != nullptr; }
+    HEDDLE_HD void add_map(int cell, int field, std::int64_t x) const {
+        executor::atomic_add(maps + cell * kMapWords + field, static_cast<std::uint64_t>(x));
+    }
+    HEDDLE_HD void pool(int cell, const float* moment, float weight) const {
+        pool_fiber(*this, cell, moment, weight, color);
+    }
+};
+
+/// A block of a batch: which voxels it has. Crosses to the device as it lies.
+struct BatchBlock {
+    Vec3i index;    ///< of the block
+    Vec3i lo, size; ///< first voxel; voxels per axis, fewer than 32 where a region cuts it
+    std::uint32_t first_plane = 0; ///< of its lobes: one plane a material
+    std::uint32_t planes = 0;
+    std::uint64_t materials[4]{}; ///< bit per material that its primitives have
+};
+static_assert(sizeof(BatchBlock) == 80);
+
+/// The sums of a batch of blocks.
+struct DenseSums {
+    const BatchBlock* blocks = nullptr;
+    std::uint64_t* masks = nullptr; ///< a block's voxels follow each other
+    std::uint64_t* lobes = nullptr; ///< plane by plane: kBlockCells voxels each
+    std::uint64_t* maps = nullptr;  ///< plane by plane; null without maps
+
+    /// Plane of a material in a block whose primitives have it.
+    [[nodiscard]] HEDDLE_HD static std::uint32_t plane_of(const BatchBlock& block,
+                                                          std::uint32_t material) {
+        std::uint32_t plane = block.first_plane;
+        for (std::uint32_t w = 0; w < material / 64; ++w) {
+            plane += static_cast<std::uint32_t>(count_bits(block.materials[w]));
+        }
+        const std::uint64_t below = (std::uint64_t{1} << (material % 64)) - 1;
+        return plane +
+               static_cast<std::uint32_t>(count_bits(block.materials[material / 64] & below));
+    }
+    [[nodiscard]] HEDDLE_HD DenseLobe lobe(std::uint32_t slot, std::uint32_t material) const {
+        const std::size_t plane = std::size_t{plane_of(blocks[slot], material)} * kBlockCells;
+        DenseLobe out;
+        out.masks = masks + std::size_t{slot} * kBlockCells * DenseLobe::kMaskWords;
+        out.lobes = lobes + plane * DenseLobe::kLobeWords;
+        if (maps != nullptr) out.maps = maps + plane * DenseLobe::kMapWords;
+        return out;
+    }
+    /// Bytes of a batch's sums.
+    [[nodiscard]] static constexpr std::int64_t
+    byte_count(std::int64_t blocks, std::int64_t planes, bool with_maps) {
+        return std::int64_t{kBlockCells} * 8 *
+               (blocks * DenseLobe::kMaskWords +
+                planes * (DenseLobe::kLobeWords + (with_maps ? DenseLobe::kMapWords : 0)));
+    }
+};
+
+} // namespace heddle

@@ -1,0 +1,151 @@
+#pragma once
+
+#include <heddle/base/bits.h>
+#include <heddle/device/level/block_cell.h>
+#include <heddle/device/level/dense_sums.h>
+#include <heddle/device/level/level_arrays.h>
+#include <heddle/voxel/lobe_pool.h>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace heddle {
+
+/// How a batch's sums become voxels of level 0.
+struct FitSettings {
+    int max_lobes = 3;
+    std::uint64_t normals[4]{}; ///< bit per material: its lobes are of normals
+};
+
+/// One voxel's place in a batch's sums.
+struct SumsPlace {
+    std::uint32_t slot = 0; ///< of the block
+    int cell = -1;          ///< relative to the block's lo; < 0: outside of what it has
+
+    /// @param i  block x kBlockCells + place in Z-order
+    HEDDLE_HD SumsPlace(const BatchBlock* blocks, std::size_t i)
+        : slot(static_cast<std::uint32_t>(i / kBlockCells)) {
+        const BatchBlock& block = blocks[slot];
+        const Vec3i at = place_of(static_cast<std::uint32_t>(i % kBlockCells)) +
+                         block.index * kBlockVoxels - block.lo;
+        const bool inside = at.x >= 0 && at.x < block.size.x && at.y >= 0 && at.y < block.size.y &&
+                            at.z >= 0 && at.z < block.size.z;
+        if (inside) cell = (at.x * kBlockVoxels + at.y) * kBlockVoxels + at.z;
+    }
+};
+
+/// Counts what voxel i of a batch has: 0 or 1 voxels, and lobes, one a material.
+struct CountVoxelOp {
+    DenseSums sums;
+    std::uint8_t* voxels;
+    std::uint16_t* lobes;
+
+    HEDDLE_HD void operator()(std::size_t i) const {
+        const SumsPlace place(sums.blocks, i);
+        int count = 0;
+        if (place.cell >= 0) {
+            const BatchBlock& block = sums.blocks[place.slot];
+            for (std::uint32_t p = 0; p < block.planes; ++p) {
+                const std::size_t at = std::size_t{block.first_plane + p} * kBlockCells +
+                                       static_cast<std::size_t>(place.cell);
+                count += sums.lobes[at * DenseLobe::kLobeWords + 6] != 0 ? 1 : 0;
+            }
+        }
+        voxels[i] = count > 0 ? 1 : 0;
+        lobes[i] = static_cast<std::uint16_t>(count);
+    }
+};
+
+/// Writes voxel i of a batch, where it is one, to its place in the level's arrays, with a lobe a
+/// material.
+struct FitVoxelOp {
+    DenseSums sums;
+    FitSettings settings;
+    std::size_t cells; ///< of the batch; item `cells` writes where the last voxel's lobes end
+    std::uint32_t voxel_count;
+    const std::uint32_t* first_voxel; ///< per i, and the end
+    const std::uint32_t* first_lobe;  ///< per i, and the end
+    std::uint64_t* key;
+    std::uint32_t* hits;
+    std::uint32_t* lobe_begin;
+    std::uint32_t* order;
+    std::uint64_t* columns;
+    DirectionSums* lobes;
+    MapSums* maps; ///< null without
+
+    HEDDLE_HD void operator()(std::size_t i) const {
+        if (i == cells) {
+            lobe_begin[voxel_count] = first_lobe[cells];
+            return;
+        }
+        const std::uint32_t v = first_voxel[i];
+        if (first_voxel[i + 1] == v) return;
+        const SumsPlace place(sums.blocks, i);
+        const auto cell = static_cast<std::size_t>(place.cell);
+        const std::uint64_t* masks =
+            sums.masks + (std::size_t{place.slot} * kBlockCells + cell) * DenseLobe::kMaskWords;
+        key[v] = i;
+        for (int axis = 0; axis < 3; ++axis) columns[std::size_t{3} * v + axis] = masks[axis];
+        int count = 0;
+        for (int w = 0; w < 8; ++w) count += count_bits(masks[3 + w]);
+        hits[v] = static_cast<std::uint32_t>(count);
+        lobe_begin[v] = first_lobe[i];
+        order[v] = 0;
+        write_lobes(sums.blocks[place.slot], cell, first_lobe[i]);
+    }
+
+private:
+    /// In the order of their materials: as they were met depends on chance.
+    HEDDLE_HD void write_lobes(const BatchBlock& block, std::size_t cell, std::uint32_t to) const {
+        std::uint32_t plane = block.first_plane;
+        for (std::uint32_t w = 0; w < 4; ++w) {
+            for (std::uint64_t bits = block.materials[w]; bits != 0; bits &= bits - 1) {
+                const std::size_t at = std::size_t{plane++} * kBlockCells + cell;
+                if (sums.lobes[at * DenseLobe::kLobeWords + 6] == 0) continue;
+                const int bit = count_bits((bits & (~bits + 1)) - 1);
+                lobes[to] = lobe_at(w * 64 + static_cast<std::uint32_t>(bit), at);
+                if (maps != nullptr) {
+                    maps[to] =
+                        *reinterpret_cast<const MapSums*>(sums.maps + at * DenseLobe::kMapWords);
+                }
+                ++to;
+            }
+        }
+    }
+    HEDDLE_HD DirectionSums lobe_at(std::uint32_t material, std::size_t at) const {
+        DirectionSums out;
+        const std::uint64_t* words = sums.lobes + at * DenseLobe::kLobeWords;
+        for (int k = 0; k < 6; ++k) out.moment[k] = static_cast<std::int64_t>(words[k]);
+        out.weight = static_cast<std::int64_t>(words[6]);
+        out.material = material;
+        out.normals = (settings.normals[material / 64] >> (material % 64) & 1u) != 0;
+        return out;
+    }
+};
+
+/// Merges the lobes of one voxel where they lie until as many are left as may be stored, and lines them
+/// up.
+struct MergeLobesOp {
+    const std::uint32_t* first_lobe; ///< per voxel, and the end
+    DirectionSums* lobes;
+    MapSums* maps; ///< null without
+    int max_lobes;
+    std::uint32_t* order;
+    std::uint8_t* count; ///< lobes left
+
+    HEDDLE_HD void operator()(std::size_t v) const {
+        const std::uint32_t begin = first_lobe[v];
+        const auto all = static_cast<int>(first_lobe[v + 1] - begin);
+        LobeRow row{0, lobes + begin, maps == nullptr ? nullptr : maps + begin};
+        for (int next = 0; next < all; ++next) { // as many at once as a pool holds
+            if (row.count == kMaxPool) reduce(row, kMaxLobes, ByMoments{});
+            row.sums[row.count] = row.sums[next];
+            if (row.maps != nullptr) row.maps[row.count] = row.maps[next];
+            ++row.count;
+        }
+        order[v] = reduce(row, max_lobes, ByMoments{});
+        count[v] = static_cast<std::uint8_t>(row.count);
+    }
+};
+
+} // namespace heddle

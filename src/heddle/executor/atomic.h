@@ -1,0 +1,39 @@
+#pragma once
+
+#include <heddle/base/platform.h>
+
+#include <atomic>
+#include <cstdint>
+
+namespace heddle::executor {
+
+/// *at |= bits, whole, whichever thread of the device or of the host comes between.
+HEDDLE_HD inline void atomic_or(std::uint64_t* at, std::uint64_t bits) {
+#if HEDDLE_DEVICE_PASS
+    atomicOr(reinterpret_cast<unsigned long long*>(at), static_cast<unsigned long long>(bits));
+#else
+    std::atomic_ref(*at).fetch_or(bits, std::memory_order_relaxed);
+#endif
+}
+
+/// *at += x modulo 2^64, whole: sums of signed numbers too, as their two's complement.
+/// @return  what was there before
+HEDDLE_HD inline std::uint64_t atomic_add(std::uint64_t* at, std::uint64_t x) {
+#if HEDDLE_DEVICE_PASS
+    return atomicAdd(reinterpret_cast<unsigned long long*>(at), static_cast<unsigned long long>(x));
+#else
+    return std::atomic_ref(*at).fetch_add(x, std::memory_order_relaxed);
+#endif
+}
+
+/// *at += x modulo 2^32, whole.
+/// @return  what was there before
+HEDDLE_HD inline std::uint32_t atomic_add(std::uint32_t* at, std::uint32_t x) {
+#if HEDDLE_DEVICE_PASS
+    return atomicAdd(at, x);
+#else
+    return std::atomic_ref(*at).fetch_add(x, std::memory_order_relaxed);
+#endif
+}
+
+} // namespace heddle::executor

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <string_view>
+
+namespace heddle::executor {
+
+/// Bytes of working memory that may be taken, counted over all executors that share them. Thread-safe.
+class Budget {
+public:
+    /// @param limit_bytes  that may be in use at once
+    explicit Budget(std::int64_t limit_bytes) : limit_(limit_bytes) {}
+
+    /// @param stage  what needs them: named in the error
+    /// @throws Error  OutOfMemory: more than the limit would be in use; nothing is taken then
+    void take(std::int64_t bytes, std::string_view stage);
+    void give(std::int64_t bytes) noexcept { used_.fetch_sub(bytes, std::memory_order_relaxed); }
+
+    [[nodiscard]] std::int64_t limit() const { return limit_; }
+    [[nodiscard]] std::int64_t used() const { return used_.load(std::memory_order_relaxed); }
+    [[nodiscard]] std::int64_t peak() const { return peak_.load(std::memory_order_relaxed); }
+
+private:
+    std::int64_t limit_;
+    std::atomic<std::int64_t> used_{0};
+    std::atomic<std::int64_t> peak_{0};
+};
+
+} // namespace heddle::executor

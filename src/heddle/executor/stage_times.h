@@ -1,0 +1,55 @@
+#pragma once
+
+#include <chrono>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace heddle::executor {
+
+/// Seconds that launches took, by the stage they were in; over all executors that share it.
+class StageTimes {
+public:
+    void add(std::string_view stage, double seconds) {
+        const std::scoped_lock lock(mutex_);
+        for (auto& [name, sum] : times_) {
+            if (name != stage) continue;
+            sum += seconds;
+            return;
+        }
+        times_.emplace_back(stage, seconds);
+    }
+    /// In the order in which stages first came.
+    [[nodiscard]] std::vector<std::pair<std::string, double>> all() const {
+        const std::scoped_lock lock(mutex_);
+        return times_;
+    }
+
+private:
+    mutable std::mutex mutex_;
+    std::vector<std::pair<std::string, double>> times_;
+};
+
+/// Adds the time from its making to its end to a stage's; null: to none.
+class StageTimer {
+public:
+    StageTimer(StageTimes* times, std::string_view stage) : times_(times), stage_(stage) {
+        if (times_ != nullptr) start_ = std::chrono::steady_clock::now();
+    }
+    ~StageTimer() {
+        if (times_ == nullptr) return;
+        const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
+        times_->add(stage_, spent.count());
+    }
+    StageTimer(const StageTimer&) = delete;
+    StageTimer& operator=(const StageTimer&) = delete;
+
+private:
+    StageTimes* times_;
+    std::string_view stage_;
+    std::chrono::steady_clock::time_point start_;
+};
+
+} // namespace heddle::executor

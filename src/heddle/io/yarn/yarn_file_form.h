@@ -1,0 +1,66 @@
+#pragma once
+
+#include <heddle/geom/yarn.h>
+#include <heddle/io/file/problems.h>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+/// What the two textual forms of a yarn share: the fields, their ranges, the problems found.
+namespace heddle::yarn_form {
+
+inline constexpr std::int64_t kMostFibers = 1'000'000;
+
+/// A number, flag or pair of YarnType.
+using Member = std::variant<float YarnType::*,
+                            std::int32_t YarnType::*,
+                            bool YarnType::*,
+                            MeanSd YarnType::*,
+                            Vec3f YarnType::*>;
+
+/// One field: its key in TOML (the member's name) and in a fit (empty: none), its model, its range.
+struct Field {
+    std::string_view key;
+    std::string_view fit_key;
+    YarnModel model; ///< whose field it is; Solid: every model's
+    Member member;
+    double least = 0.0, most = 0.0;
+    bool above = false;     ///< `least` itself is not allowed
+    bool fit_needs = false; ///< a fit without it cannot be used
+};
+
+[[nodiscard]] const std::vector<Field>& fields();
+[[nodiscard]] std::string_view to_string(YarnModel model);
+
+/// What is wrong with one file, by its lines.
+class FileProblems {
+public:
+    explicit FileProblems(std::string path) : path_(std::move(path)) {}
+    /// @param line  1-based; 0: the file as a whole
+    void add(std::int64_t line, const std::string& text) { all_.add({path_, line}, text); }
+    [[nodiscard]] Problems& all() { return all_; }
+
+private:
+    std::string path_;
+    Problems all_;
+};
+
+/// Sets a field from its numbers (a flag: 0 or 1), or adds why it cannot.
+void set_field(YarnType& yarn,
+               const Field& field,
+               std::string_view key,
+               const std::vector<double>& numbers,
+               std::int64_t line,
+               FileProblems& problems);
+
+/// Checks what no field can tell alone, and fills in the fiber radius where it is 0.
+/// @return a note on the fiber radius, or nothing
+[[nodiscard]] std::string complete(YarnType& yarn, FileProblems& problems);
+
+/// "; did you mean 'x'?" with the known key that is nearest, then the known keys if they are few.
+[[nodiscard]] std::string suggest(std::string_view key, const std::vector<std::string_view>& known);
+
+} // namespace heddle::yarn_form

@@ -1,0 +1,251 @@
+#pragma once
+
+#include <heddle/base/platform.h>
+#include <heddle/base/random.h>
+#include <heddle/base/vec.h>
+#include <heddle/surface/surface_view.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace heddle {
+
+// Directions and map values of surface hits.
+//
+// Colour, roughness, metalness and strength are means over the footprint of a hit (trilinear, in
+// linear light; colour weighted by alpha). Directions are not: a mean normal has lost the spread
+// that the voxel's second moment is there to keep. So where the footprint exceeds a texel, normal
+// maps and anisotropy directions are read at a random point of it, at the finest level.
+// Alpha: the covered fraction c of the footprint (of a mask, exactly 0 or 1 below a texel) covers
+// the column if c exceeds a hash of the hit's position: right in the mean at any footprint.
+// Random numbers are hashes of (seed, i, j, k, axis). float + - * / sqrt only: the same everywhere.
+
+/// A hit of `scan_triangle`, to be shaded.
+struct SurfaceHit {
+    std::int32_t axis = 0;
+    std::int32_t i = 0, j = 0, k = 0; ///< global subvoxel index
+    float b0 = 1.0f, b1 = 0.0f, b2 = 0.0f;
+};
+
+/// What a surface is at one hit. The maps' values are multipliers: 1 where there is no map.
+struct SurfaceSample {
+    bool covered = true;   ///< false: cut away by alpha, nothing else is set
+    Vec3f normal{};        ///< unit, world axes; axial, either side
+    Vec3f tangent{};       ///< unit, at right angles to `normal`; (0, 0, 0) where isotropic
+    Vec3f albedo{1, 1, 1}; ///< linear, in [0, 1]
+    float roughness = 1.0f;
+    float metalness = 1.0f;
+    float anisotropy = 1.0f;
+};
+
+/// What the hits of one triangle share.
+struct TriangleSetup {
+    const SurfaceMaps* maps = nullptr;
+    Vec3f face_normal{};   ///< unit, counter-clockwise side
+    Vec3d normal{};        ///< the same, as `hit_weight` takes it
+    bool smooth = false;   ///< vertex normals vary
+    bool textured = false; ///< `uv` holds
+    std::int32_t run =
+        1; ///< neighbouring hits of a row that one sample, at their middle, stands for
+    std::array<Vec3f, 3> normals{};
+    std::array<Vec3f, 3> tangents{};
+    float handedness = 1.0f; ///< bitangent = handedness x cross(normal, tangent)
+    std::array<Uv, 3> uv{};
+    float footprint_uv = 0.0f; ///< square root of the uv area that a sample stands for
+    float albedo_level = 0.0f;
+    float metal_rough_level = 0.0f;
+    float anisotropy_level = 0.0f;
+};
+
+namespace surface_detail {
+
+HEDDLE_HD inline double uv_area(Uv a, Uv b, Uv c) {
+    const double u1 = double{b.u} - double{a.u}, v1 = double{b.v} - double{a.v};
+    const double u2 = double{c.u} - double{a.u}, v2 = double{c.v} - double{a.v};
+    return 0.5 * std::abs(u1 * v2 - u2 * v1);
+}
+
+// Mean area of the surface that a hit stands for: the columns' sections seen from the surface,
+// weighted as the axes share out the area.
+HEDDLE_HD inline double hit_area(Vec3d n, Vec3d s) {
+    return n.x * n.x * s.y * s.z + n.y * n.y * s.z * s.x + n.z * n.z * s.x * s.y;
+}
+
+HEDDLE_HD inline float level_of(const TextureView* map, float footprint_uv) {
+    return map != nullptr ? map->level_of(footprint_uv) : 0.0f;
+}
+
+HEDDLE_HD inline void set_texture(const SurfaceView& view, double area, TriangleSetup& t) {
+    const SurfaceMaps& m = *t.maps;
+    t.textured = m.albedo != nullptr || m.normal != nullptr || m.metal_rough != nullptr ||
+                 m.anisotropy != nullptr;
+    if (!t.textured || !(area > 0.0)) return;
+    const double ratio = uv_area(t.uv[0], t.uv[1], t.uv[2]) / area;
+    t.footprint_uv =
+        static_cast<float>(std::sqrt(ratio * hit_area(t.normal, view.subvoxel_size) * t.run));
+    t.albedo_level = level_of(m.albedo, t.footprint_uv);
+    t.metal_rough_level = level_of(m.metal_rough, t.footprint_uv);
+    t.anisotropy_level = level_of(m.anisotropy, t.footprint_uv);
+}
+
+HEDDLE_HD inline void set_tangents(const MeshView& mesh, std::uint64_t triangle, TriangleSetup& t) {
+    const std::array<std::uint32_t, 3> corner = mesh.triangles[triangle];
+    if (mesh.tangents != nullptr) {
+        for (std::size_t n = 0; n < 3; ++n) {
+            const Tangent& v = mesh.tangents[corner[n]];
+            t.tangents[n] = {v.x, v.y, v.z};
+        }
+        t.handedness = mesh.tangents[corner[0]].w < 0.0f ? -1.0f : 1.0f;
+        return;
+    }
+    // Without vertex tangents: the direction in which u grows on the triangle.
+    const Vec3f d1 = mesh.positions[corner[1]] - mesh.positions[corner[0]];
+    const Vec3f d2 = mesh.positions[corner[2]] - mesh.positions[corner[0]];
+    const float u1 = t.uv[1].u - t.uv[0].u, v1 = t.uv[1].v - t.uv[0].v;
+    const float u2 = t.uv[2].u - t.uv[0].u, v2 = t.uv[2].v - t.uv[0].v;
+    const float sign = u1 * v2 - u2 * v1 < 0.0f ? -1.0f : 1.0f;
+    const Vec3f along = normalize((d1 * v2 - d2 * v1) * sign, any_perpendicular(t.face_normal));
+    t.tangents = {along, along, along};
+    t.handedness = sign;
+}
+
+HEDDLE_HD inline Vec3f interpolate(const std::array<Vec3f, 3>& v, const SurfaceHit& h) {
+    return v[0] * h.b0 + v[1] * h.b1 + v[2] * h.b2;
+}
+
+HEDDLE_HD inline std::uint64_t
+hash_of(const SurfaceHit& h, std::uint64_t seed, std::uint64_t draw) {
+    const auto word = [](std::int32_t i) { return std::uint64_t{static_cast<std::uint32_t>(i)}; };
+    const std::uint64_t salt = 4 * draw + static_cast<std::uint64_t>(h.axis);
+    return hash64(seed ^ (salt << 40), word(h.i) << 32 | word(h.j), word(h.k));
+}
+
+HEDDLE_HD inline bool covers(std::uint64_t seed, const SurfaceHit& hit, float alpha) {
+    if (alpha >= 1.0f) return true;
+    if (alpha <= 0.0f) return false;
+    return alpha > to_unit_float(hash_of(hit, seed, 0));
+}
+
+HEDDLE_HD inline Uv point_in_footprint(
+    std::uint64_t seed, const TriangleSetup& t, const SurfaceHit& hit, Uv uv, float texels_per_uv) {
+    // The bilinear read spans a texel itself: only the rest of the footprint is drawn from.
+    const float spread = t.footprint_uv - 1.0f / texels_per_uv;
+    if (!(spread > 0.0f)) return uv;
+    const std::uint64_t h = hash_of(hit, seed, 1);
+    return {uv.u + spread * (to_unit_float(h) - 0.5f),
+            uv.v + spread * (to_unit_float(h << 24) - 0.5f)};
+}
+
+/// Sets the normal, by the normal map if it is to be read, and the tangent of anisotropic materials.
+HEDDLE_HD inline void set_frame(std::uint64_t seed,
+                                const TriangleSetup& t,
+                                const SurfaceHit& hit,
+                                Uv uv,
+                                bool mapped_normal,
+                                SurfaceSample& s) {
+    const SurfaceMaps& m = *t.maps;
+    const Vec3f n = s.normal;
+    const Vec3f along = interpolate(t.tangents, hit);
+    const Vec3f tangent = normalize(along - n * dot(n, along), any_perpendicular(n));
+    const Vec3f bitangent = cross(n, tangent) * t.handedness;
+    if (mapped_normal && t.textured && m.normal != nullptr) {
+        const Rgba v =
+            m.normal->at_point(point_in_footprint(seed, t, hit, uv, m.normal->texels_per_uv));
+        const float scale = m.normal_scale;
+        s.normal =
+            normalize(tangent * ((2.0f * v.r - 1.0f) * scale) +
+                          bitangent * ((2.0f * v.g - 1.0f) * scale) + n * (2.0f * v.b - 1.0f),
+                      n);
+    }
+    if (!m.anisotropic) return;
+    float x = 1.0f, y = 0.0f;
+    if (t.textured && m.anisotropy != nullptr) {
+        s.anisotropy = m.anisotropy->filtered(uv, t.anisotropy_level).b;
+        const Rgba v = m.anisotropy->at_point(
+            point_in_footprint(seed, t, hit, uv, m.anisotropy->texels_per_uv));
+        x = 2.0f * v.r - 1.0f;
+        y = 2.0f * v.g - 1.0f;
+    }
+    const Vec3f direction = tangent * (x * m.rotation_cos - y * m.rotation_sin) +
+                            bitangent * (x * m.rotation_sin + y * m.rotation_cos);
+    s.tangent =
+        normalize(direction - s.normal * dot(s.normal, direction), any_perpendicular(s.normal));
+}
+
+HEDDLE_HD inline SurfaceSample shade(std::uint64_t seed,
+                                     const TriangleSetup& t,
+                                     const SurfaceHit& hit,
+                                     Vec3f normal,
+                                     bool mapped_normal) {
+    const SurfaceMaps& m = *t.maps;
+    SurfaceSample s;
+    s.normal = normal;
+    Uv uv;
+    if (t.textured)
+        uv = {t.uv[0].u * hit.b0 + t.uv[1].u * hit.b1 + t.uv[2].u * hit.b2,
+              t.uv[0].v * hit.b0 + t.uv[1].v * hit.b1 + t.uv[2].v * hit.b2};
+    Rgba colour;
+    const bool mapped = t.textured && m.albedo != nullptr;
+    if (mapped) colour = m.albedo->filtered(uv, t.albedo_level);
+    s.albedo = {colour.r, colour.g, colour.b};
+    if (m.alpha_mode == AlphaMode::Blend) s.covered = covers(seed, hit, colour.a * m.alpha);
+    if (m.alpha_mode == AlphaMode::Mask)
+        s.covered = mapped ? covers(seed, hit, colour.a) : m.alpha >= m.alpha_cutoff;
+    if (!s.covered) return s;
+    if (t.textured && m.metal_rough != nullptr) {
+        const Rgba value = m.metal_rough->filtered(uv, t.metal_rough_level);
+        s.roughness = value.g;
+        s.metalness = value.b;
+    }
+    if (m.anisotropic || (mapped_normal && t.textured && m.normal != nullptr))
+        set_frame(seed, t, hit, uv, mapped_normal, s);
+    return s;
+}
+
+} // namespace surface_detail
+
+/// @param triangle  of the mesh
+[[nodiscard]] HEDDLE_HD inline TriangleSetup
+set_up_triangle(const SurfaceView& view, const MeshView& mesh, std::uint64_t triangle) {
+    const std::array<std::uint32_t, 3> corner = mesh.triangles[triangle];
+    const std::uint32_t a = corner[0], b = corner[1], c = corner[2];
+    TriangleSetup t;
+    t.maps = &view.materials[mesh.material];
+    const Vec3d p = to_double(mesh.positions[a]);
+    const Vec3d twice = cross(to_double(mesh.positions[b]) - p, to_double(mesh.positions[c]) - p);
+    t.normal = normalize(twice);
+    t.face_normal = to_float(t.normal);
+    if (mesh.normals != nullptr) {
+        t.normals = {mesh.normals[a], mesh.normals[b], mesh.normals[c]};
+        t.smooth = true;
+    }
+    const bool displaced = mesh.kind == SurfaceKind::Displaced;
+    if (!displaced && t.maps->alpha_mode == AlphaMode::Opaque) t.run = view.run;
+    if (mesh.uvs != nullptr) {
+        t.uv = {mesh.uvs[a], mesh.uvs[b], mesh.uvs[c]};
+        surface_detail::set_texture(view, 0.5 * length(twice), t);
+    }
+    const bool framed = t.maps->anisotropic || (t.textured && t.maps->normal != nullptr);
+    if (framed) surface_detail::set_tangents(mesh, triangle, t);
+    return t;
+}
+
+/// What the surface is at a hit.
+/// @param seed  SurfaceView::seed
+[[nodiscard]] HEDDLE_HD inline SurfaceSample
+sample_at(std::uint64_t seed, const TriangleSetup& t, const SurfaceHit& hit) {
+    using namespace surface_detail;
+    const Vec3f normal =
+        t.smooth ? normalize(interpolate(t.normals, hit), t.face_normal) : t.face_normal;
+    return shade(seed, t, hit, normal, true);
+}
+
+/// The same on a displaced triangle: `micro_normal` (unit) takes the place of the interpolated
+/// normal, and of the normal map, which holds the same relief.
+[[nodiscard]] HEDDLE_HD inline SurfaceSample
+sample_at(std::uint64_t seed, const TriangleSetup& t, const SurfaceHit& hit, Vec3f micro_normal) {
+    return surface_detail::shade(seed, t, hit, micro_normal, false);
+}
+
+} // namespace heddle

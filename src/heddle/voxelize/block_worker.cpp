@@ -1,0 +1,100 @@
+#include <heddle/voxelize/block_worker.h>
+
+#include <algorithm>
+
+namespace heddle {
+namespace {
+
+/// What varies over the geometry's materials decides which optional data the voxels carry.
+VoxelGridFields fields_of(const Geometry& geometry) {
+    VoxelGridFields fields;
+    for (const CurveSet& set : geometry.curves) {
+        const YarnType* yarn = geometry.yarn_of(set);
+        const bool slice = yarn != nullptr && yarn->model == YarnModel::Slice;
+        fields.albedo = fields.albedo || slice || !set.color.empty();
+    }
+    for (const Mesh& mesh : geometry.meshes) {
+        const Material& m = geometry.materials[mesh.material];
+        fields.albedo = fields.albedo || m.albedo_map >= 0;
+        fields.surface = fields.surface || m.metal_rough_map >= 0 || m.anisotropy_map >= 0;
+        fields.tangents = fields.tangents || m.anisotropy > 0.0f;
+    }
+    return fields;
+}
+
+} // namespace
+
+VoxelizeContext::VoxelizeContext(const Geometry& geometry_in,
+                                 const VoxelizeOptions& options_in,
+                                 const Lattice& lattice_in,
+                                 Vec3i voxel_lo,
+                                 Vec3i voxel_hi)
+    : geometry(geometry_in),
+      options(options_in),
+      units(lattice_in),
+      fibers(geometry_in, units, options_in.seed),
+      triangles(geometry_in),
+      surfaces(geometry_in, units, options_in.seed),
+      lattice(lattice_in),
+      range(voxel_lo, voxel_hi),
+      fit{.subvoxels = lattice.subvoxels,
+          .max_lobes = options_in.max_lobes,
+          .project_subvoxels = options_in.coverage == CoverageMode::Mask,
+          .fields = fields_of(geometry_in)} {
+    fit.fields.masks = options_in.keep_sums;
+    fit.fields.footprints = options_in.footprints;
+    fit.fields.correlation = options_in.correlation;
+    for (std::size_t m = 0; m < geometry_in.materials.size(); ++m) {
+        fit.normals[m] = geometry_in.materials[m].kind == MaterialKind::Surface;
+    }
+}
+
+VoxelGridInfo VoxelizeContext::info() const {
+    VoxelGridInfo info{.name = geometry.name,
+                       .lattice = lattice,
+                       .max_lobes = options.max_lobes,
+                       .fields = fit.fields,
+                       .materials = geometry.materials,
+                       .yarns = geometry.yarns,
+                       .command = options.command};
+    info.fields.masks = options.keep_sums;
+    for (YarnType& yarn : info.yarns) yarn.slice.texels.clear();
+    for (std::size_t m = 0; m < info.materials.size(); ++m) {
+        info.materials[m].fiber_radius = mean_fiber_radius(geometry, static_cast<std::uint32_t>(m));
+    }
+    return info;
+}
+
+BlockWorker::BlockWorker(const VoxelizeContext& context)
+    : context_(context),
+      sums_(context.fit.fields.map_sums()),
+      fibers_(context.fibers, context.options.gather()),
+      triangles_(context.surfaces, context.units, context.options.fit) {}
+
+BlockCounts BlockWorker::run(std::uint64_t block,
+                             std::span<const Primitive> primitives,
+                             const Progress& progress,
+                             VoxelBlock& out) {
+    Vec3i lo;
+    Vec3i hi;
+    context_.range.voxels(block, lo, hi);
+    sums_.reset(lo, hi);
+    // sorted: fiber pieces first, triangles (top bit set) after them
+    const auto split = static_cast<std::size_t>(
+        std::lower_bound(primitives.begin(), primitives.end(), kTriangleBit) - primitives.begin());
+    fibers_.gather(primitives.first(split), sums_, progress);
+    const TriangleWork work = triangles_.gather(primitives.subspan(split), sums_, progress);
+    BlockCounts counts = fit_block(sums_, context_.fit, out);
+    counts.triangles = static_cast<std::int64_t>(primitives.size() - split);
+    counts.triangle_hits = work.hits;
+    counts.surface_samples = work.samples;
+    return counts;
+}
+
+std::int64_t BlockWorker::byte_count(const FitOptions& fit) {
+    const std::size_t voxel =
+        sizeof(std::uint16_t) + sizeof(VoxelSums) + (fit.fields.map_sums() ? sizeof(MapSums) : 0);
+    return static_cast<std::int64_t>(voxel * BlockSums::kVoxels + (std::size_t{1} << 18));
+}
+
+} // namespace heddle

@@ -1,0 +1,201 @@
+#pragma once
+
+#include <heddle/base/bits.h>
+#include <heddle/voxel/weight.h>
+#include <heddle/voxelize/chord/column_scan.h>
+
+#include <cstdint>
+
+namespace heddle {
+
+/// A straight piece of fiber, in units, relative to the corner of the voxel `anchor`.
+struct Chord {
+    Vec3f start;
+    Vec3f dir;        ///< unit
+    float length = 0; ///< > 0
+    float before = 0; ///< the round body goes on this far before the start and after the end, which
+    float after = 0;  ///< closes the wedge that a bend opens on its outer side
+    float radius = 0; ///< > 0
+};
+
+/// Thicker than this, a fiber's directions are spread over the subvoxels it fills; thinner, along its
+/// centreline, which then is never far from what it fills. Units.
+constexpr float kThickRadius = 2.0f;
+
+/// Part of the axial range in which the line origin + s dir lies within a voxel grown by `grow`.
+struct AxialRange {
+    float enter, leave;
+};
+HEDDLE_INLINE AxialRange
+clip_to_voxel(Vec3f origin, Vec3f inv_dir, Vec3f voxel, float grow, AxialRange range) {
+    for (int a = 0; a < 3; ++a) {
+        const float t0 = (-grow - origin[a]) * inv_dir[a];
+        const float t1 = (voxel[a] + grow - origin[a]) * inv_dir[a];
+        const float near = t0 < t1 ? t0 : t1;
+        const float far = t0 < t1 ? t1 : t0;
+        range.enter = near > range.enter ? near : range.enter;
+        range.leave = far < range.leave ? far : range.leave;
+    }
+    return range;
+}
+
+/// Sets the subvoxels whose centres lie in the cylinder, from a patch of columns along z: a run in each.
+/// @param sums  has or_subvoxels(cell, word, bits)
+/// @return      subvoxels in the runs
+template <typename Sums>
+HEDDLE_INLINE int mark_subvoxels(const Sums& sums,
+                                 int cell,
+                                 const LatticeUnits& u,
+                                 const ColumnView& v,
+                                 int a0,
+                                 int b0,
+                                 std::uint32_t hits,
+                                 const PatchDepths& depths) {
+    const float step = u.edge.z * v.dc; // axial coordinate from one subvoxel to the next
+    const bool level = step < 1e-6f && step > -1e-6f;
+    const float inv_step = 1.0f / (level ? 1.0f : step);
+    const auto most = static_cast<float>(u.n);
+    int marked = 0;
+    for (; hits != 0; hits &= hits - 1) {
+        const int lane = lowest_bit(hits);
+        const int x = a0 + (lane & 3);
+        const int y = b0 + (lane >> 2);
+        if (x >= u.n || y >= u.n) continue;
+        const float qa = (static_cast<float>(x) + 0.5f) * v.ea - v.oa;
+        const float qb = (static_cast<float>(y) + 0.5f) * v.eb - v.ob;
+        const float axial =
+            qa * v.da + qb * v.db + (0.5f * u.edge.z - v.oc) * v.dc; // of subvoxel 0
+        if (level && (axial < v.lo || axial > v.hi)) continue;
+        const float end0 = level ? -1.0f : (v.lo - axial) * inv_step;
+        const float end1 = level ? most : (v.hi - axial) * inv_step;
+        const float near = end0 < end1 ? end0 : end1;
+        const float far = end0 < end1 ? end1 : end0;
+        if (!(near < most) || !(far > -1.0f)) continue;
+        const int flat0 = -floor_to_int(near > -1.0f ? -near : 1.0f);
+        const int flat1 = floor_to_int(far < most ? far : most);
+        const ColumnRange z = columns_in(depths.enter[lane], depths.leave[lane], u.inv_edge.z, u.n);
+        const int first = z.first > flat0 ? z.first : flat0;
+        const int count = (z.last < flat1 ? z.last : flat1) - first + 1;
+        if (count <= 0) continue;
+        const int bit = (x * u.n + y) * u.n + first;
+        sums.or_subvoxels(cell, bit >> 6, ((std::uint64_t{1} << count) - 1) << (bit & 63));
+        marked += count;
+    }
+    return marked;
+}
+
+/// Adds `weight` (units^2, at least kGrazeWeight) of directions and the fiber's colour.
+/// @param sums    has add_lobe(cell, field, x) with fields xx yy zz xy xz yz, weight; has_maps();
+///                add_map(cell, field, x) with fields as MapSums lies
+/// @param moment  second moment of the directions, trace 1: xx yy zz xy xz yz
+template <typename Sums>
+HEDDLE_INLINE void
+pool_fiber(const Sums& sums, int cell, const float* moment, float weight, std::uint32_t color) {
+    const float w = (weight > kGrazeWeight ? weight : kGrazeWeight) * kWeightScale;
+    for (int i = 0; i < 6; ++i) sums.add_lobe(cell, i, static_cast<std::int64_t>(moment[i] * w));
+    const auto area = static_cast<std::int64_t>(w);
+    sums.add_lobe(cell, 6, area);
+    if (!sums.has_maps()) return;
+    for (int i = 0; i < 3; ++i) sums.add_map(cell, 6 + i, area * ((color >> (8 * i)) & 0xff));
+    // a fiber's material has no such maps: its own numbers, unchanged
+    for (int i = 9; i < 12; ++i) sums.add_map(cell, i, 255 * area);
+}
+
+/// Second moment of one direction: xx yy zz xy xz yz.
+struct DirectionMoment {
+    float v[6];
+    HEDDLE_INLINE explicit DirectionMoment(Vec3f d)
+        : v{d.x * d.x, d.y * d.y, d.z * d.z, d.x * d.y, d.x * d.z, d.y * d.z} {}
+};
+
+/// scan_columns() without a use for depths.
+struct IgnoreHits {
+    HEDDLE_INLINE void
+    operator()(const ColumnView&, int, int, std::uint32_t, const PatchDepths&) const {}
+};
+/// Marks the subvoxels of the columns that scan_columns() finds, and counts them.
+template <typename Sums>
+struct MarkHits {
+    const Sums& sums;
+    const LatticeUnits& u;
+    int cell;
+    int marked = 0;
+    HEDDLE_INLINE void
+    operator()(const ColumnView& v, int a0, int b0, std::uint32_t hits, const PatchDepths& depths) {
+        marked += mark_subvoxels(sums, cell, u, v, a0, b0, hits, depths);
+    }
+};
+
+/// Adds a thick chord to one voxel. `k.origin` is relative to the voxel's corner.
+template <typename Sums>
+HEDDLE_INLINE void gather_voxel(const Sums& sums,
+                                const LatticeUnits& u,
+                                const Cylinder& k,
+                                float length,
+                                Vec3f inv_dir,
+                                int cell) {
+    const AxialRange reach = clip_to_voxel(k.origin, inv_dir, u.voxel, k.radius, {k.lo, k.hi});
+    if (!(reach.enter < reach.leave)) return;
+    ColumnRange range[3];
+    for (int a = 0; a < 3; ++a) {
+        const float p0 = k.origin[a] + k.dir[a] * reach.enter;
+        const float p1 = k.origin[a] + k.dir[a] * reach.leave;
+        range[a] = columns_in((p0 < p1 ? p0 : p1) - k.radius, (p0 < p1 ? p1 : p0) + k.radius,
+                              u.inv_edge[a], u.n);
+    }
+    const std::uint64_t mx = scan_columns<false>(k, u, 0, range, IgnoreHits{});
+    const std::uint64_t my = scan_columns<false>(k, u, 1, range, IgnoreHits{});
+    MarkHits<Sums> mark{sums, u, cell};
+    const std::uint64_t mz = scan_columns<true>(k, u, 2, range, mark);
+    const AxialRange in = clip_to_voxel(k.origin, inv_dir, u.voxel, 0.0f, {0.0f, length});
+    const bool passes = in.enter < in.leave;
+    if ((mx | my | mz) == 0 && !passes) return;
+    if (mx != 0) sums.or_column(cell, 0, mx);
+    if (my != 0) sums.or_column(cell, 1, my);
+    if (mz != 0) sums.or_column(cell, 2, mz);
+    // directed area, the projection 2 r L = (pi r^2 L) x 2 / (pi r), goes with the volume of the
+    // subvoxels that it fills
+    const float volume = u.edge.x * u.edge.y * u.edge.z;
+    const float weight = 0.63661977f * volume / k.radius * static_cast<float>(mark.marked);
+    sums.pool(cell, DirectionMoment(k.dir).v, weight);
+}
+
+/// Adds a chord thicker than kThickRadius to the voxels of a block that its round body meets.
+/// @param sums    as FiberSums
+/// @param size    of the block, voxels
+/// @param anchor  the voxel that the chord is relative to, relative to the block's lo
+template <typename Sums>
+HEDDLE_INLINE void gather_chord(
+    const Sums& sums, const LatticeUnits& u, Vec3i size, const Chord& chord, Vec3i anchor) {
+    Vec3f inv_dir;
+    int lo[3]{};
+    int hi[3]{};
+    for (int a = 0; a < 3; ++a) {
+        const float d = chord.dir[a];
+        const float safe = d > 1e-12f || d < -1e-12f ? d : 1e-12f;
+        inv_dir[a] = 1.0f / safe;
+        const float p0 = chord.start[a] - d * chord.before;
+        const float p1 = chord.start[a] + d * (chord.length + chord.after);
+        const float least = ((p0 < p1 ? p0 : p1) - chord.radius) * u.inv_voxel[a];
+        const float most = ((p0 < p1 ? p1 : p0) + chord.radius) * u.inv_voxel[a];
+        lo[a] = floor_to_int(least) + anchor[a];
+        hi[a] = floor_to_int(most) + anchor[a];
+        lo[a] = lo[a] > 0 ? lo[a] : 0;
+        hi[a] = hi[a] < size[a] ? hi[a] : size[a] - 1;
+    }
+    for (int x = lo[0]; x <= hi[0]; ++x) {
+        for (int y = lo[1]; y <= hi[1]; ++y) {
+            for (int z = lo[2]; z <= hi[2]; ++z) {
+                const Vec3f corner{static_cast<float>(x - anchor.x) * u.voxel.x,
+                                   static_cast<float>(y - anchor.y) * u.voxel.y,
+                                   static_cast<float>(z - anchor.z) * u.voxel.z};
+                const Cylinder k{chord.start - corner, chord.dir, -chord.before,
+                                 chord.length + chord.after, chord.radius};
+                gather_voxel(sums, u, k, chord.length, inv_dir,
+                             (x * kBlockVoxels + y) * kBlockVoxels + z);
+            }
+        }
+    }
+}
+
+} // namespace heddle

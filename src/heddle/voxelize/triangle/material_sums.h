@@ -1,0 +1,65 @@
+#pragma once
+
+#include <heddle/base/platform.h>
+#include <heddle/voxelize/block/accumulator.h>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace heddle {
+
+/// The sums of one material in a block, as BlockTarget (surface_hits.h) asks for them.
+class MaterialSums {
+public:
+    /// @param last  the last hit alone counts (FitMode::Last)
+    HEDDLE_INLINE MaterialSums(BlockSums& block, std::uint32_t material, bool last)
+        : block_(block), material_(material), last_(last), has_maps_(block.has_maps()) {}
+
+    // the voxel is kept at hand: hits that follow each other mostly lie in one
+    HEDDLE_INLINE void or_column(int cell, int axis, std::uint64_t bits) {
+        if (cell != cell_) open(cell);
+        voxel_->column[static_cast<std::size_t>(axis)] |= bits;
+    }
+    HEDDLE_INLINE void or_subvoxels(int, int word, std::uint64_t bits) {
+        voxel_->sub[static_cast<std::size_t>(word)] |= bits;
+    }
+    HEDDLE_INLINE void add_lobe(int, int field, std::int64_t x) {
+        (field < 6 ? lobe_->moment[static_cast<std::size_t>(field)] : lobe_->weight) += x;
+    }
+    HEDDLE_INLINE void add_map(int, int field, std::int64_t x) { map_of(*maps_, field) += x; }
+    [[nodiscard]] HEDDLE_INLINE bool has_maps() const { return has_maps_; }
+    HEDDLE_INLINE bool forget(int) {
+        if (!last_) return false;
+        *lobe_ = {.weight = 0, .material = lobe_->material, .next = lobe_->next};
+        if (has_maps_) *maps_ = {};
+        return true;
+    }
+
+private:
+    HEDDLE_INLINE void open(int cell) {
+        cell_ = cell;
+        voxel_ = &block_.voxel_at(static_cast<std::uint32_t>(cell));
+        lobe_ = &block_.lobe(*voxel_, material_);
+        if (has_maps_) maps_ = &block_.maps(*voxel_, *lobe_);
+    }
+    HEDDLE_INLINE static std::int64_t& map_of(MapSums& m, int field) {
+        switch (field) {
+        case 9: return m.roughness;
+        case 10: return m.metalness;
+        case 11: return m.anisotropy;
+        default: break;
+        }
+        const auto i = static_cast<std::size_t>(field);
+        return field < 6 ? m.tangent[i] : m.albedo[i - 6];
+    }
+
+    BlockSums& block_;
+    std::uint32_t material_;
+    bool last_, has_maps_;
+    int cell_ = -1;
+    VoxelSums* voxel_ = nullptr;
+    LobeSums* lobe_ = nullptr;
+    MapSums* maps_ = nullptr;
+};
+
+} // namespace heddle
