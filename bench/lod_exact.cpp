@@ -209,8 +209,8 @@ private:
 };
 
 void print_head() {
-    std::printf("| object | level | voxels | measured | method | moment max | median | sums: max "
-                "| median | sigma | L1 |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
+    std::printf(
+        "| object | level | voxels | measured | method | moment max | median | sums: max | median | sigma | L1 |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
 }
 
 /// Measures an object with some methods and prints a row for each level and method.

@@ -147,8 +147,8 @@ Drawn draw(std::int32_t size, std::uint64_t seed, raster::Composition compositio
 }
 
 void print_images() {
-    std::puts("| composition | image | seed | image, s | set-up, s | three passes, s | density | "
-              "median angle | 9 of 10 below |\n|---|---|---|---|---|---|---|---|---|");
+    std::puts(
+        "| composition | image | seed | image, s | set-up, s | three passes, s | density | median angle | 9 of 10 below |\n|---|---|---|---|---|---|---|---|---|");
     for (const auto& [name, composition] :
          {std::pair{"accumulate", raster::Composition::Accumulate},
           {"average", raster::Composition::Average},

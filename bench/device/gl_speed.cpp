@@ -96,10 +96,9 @@ void print_row(double millions) {
 int main(int argc, char** argv) {
     try {
         std::printf("driver: %s\n\n", heddle::opengl::Context().driver().c_str());
-        std::puts("| M slices | view: set-up, s | sort, ms | shadow map, ms | draw, ms | by "
-                  "weights, ms | "
-                  "voxels: set-up, s | a pass by fragments, ms | by compute, ms | same bits |\n"
-                  "|---|---|---|---|---|---|---|---|---|---|");
+        std::puts(
+            "| M slices | view: set-up, s | sort, ms | shadow map, ms | draw, ms | by weights, ms | voxels: set-up, s | a pass by fragments, ms | by compute, ms | same bits |\n"
+            "|---|---|---|---|---|---|---|---|---|---|");
         if (argc < 2) heddle::print_row(0.01);
         for (int i = 1; i < argc; ++i) heddle::print_row(std::atof(argv[i]));
     } catch (const std::exception& e) {

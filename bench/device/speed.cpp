@@ -161,12 +161,12 @@ void print_row(const Row& row, bool with_cpu, const Peaks& peaks) {
     timing.time_stages = true;
     const Run timed = run_device(g, options, timing, true);
     const double whole = read + levels.seconds + write;
-    std::printf("| %s, %.4g M nodes, %d | %.1f M | %.3f (first %.3f) | %.1f | %.3f | %.1f | %.3f, "
-                "%.3f | %.1f | ",
-                row.shape, 1e-6 * static_cast<double>(points) * kFibers, row.voxels,
-                1e-6 * static_cast<double>(level0.levels[0]->info().voxel_count), level0.seconds,
-                first.seconds, row.paper / level0.seconds, levels.seconds,
-                row.paper_levels / levels.seconds, read, write, row.paper_levels / whole);
+    std::printf(
+        "| %s, %.4g M nodes, %d | %.1f M | %.3f (first %.3f) | %.1f | %.3f | %.1f | %.3f, %.3f | %.1f | ",
+        row.shape, 1e-6 * static_cast<double>(points) * kFibers, row.voxels,
+        1e-6 * static_cast<double>(level0.levels[0]->info().voxel_count), level0.seconds,
+        first.seconds, row.paper / level0.seconds, levels.seconds,
+        row.paper_levels / levels.seconds, read, write, row.paper_levels / whole);
     if (with_cpu) {
         std::printf("%.2f |", cpu_seconds(g, options));
     } else {
@@ -214,9 +214,7 @@ int main_of(int rows) {
     std::printf("copies in the device's memory: %.0f GB/s; arithmetic: %.0f Gop/s\n\n",
                 peaks.gigabytes, peaks.gigaflops);
     std::printf(
-        "| cloth, nodes of fibers, voxels along the longest axis | voxels | level 0, s | "
-        "paper / this | with levels, s | paper / this | read, write, s | paper / the whole | "
-        "all cores of the CPU, level 0, s | launches |\n"
+        "| cloth, nodes of fibers, voxels along the longest axis | voxels | level 0, s | paper / this | with levels, s | paper / this | read, write, s | paper / the whole | all cores of the CPU, level 0, s | launches |\n"
         "|---|---|---|---|---|---|---|---|---|---|\n");
     if (device.name.empty()) {
         print_row({"flat", 1e5, 128, 0.0, 0.0}, true, peaks);
@@ -224,8 +222,8 @@ int main_of(int rows) {
         for (int r = 0; r < rows; ++r) print_row(kRows[r], r % 3 == 0 && r < 6, peaks);
         if (rows == 9) print_row(kOtherReading, false, peaks);
     }
-    std::printf("\n| mesh, 1 subvoxel | voxels | bin and gather, ms | all launches, ms | "
-                "cuda_voxelizer, published, scaled, ms |\n|---|---|---|---|---|\n");
+    std::printf(
+        "\n| mesh, 1 subvoxel | voxels | bin and gather, ms | all launches, ms | cuda_voxelizer, published, scaled, ms |\n|---|---|---|---|---|\n");
     if (device.name.empty()) {
         print_mesh(128, 0.0, 0.0);
     } else {

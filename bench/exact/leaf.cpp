@@ -68,13 +68,11 @@ void print_leaf_fits() {
         "One voxel of fibers in known directions, each set in %d random orientations. M: largest\n"
         "difference of an entry of the lobe's own second moment M(S) from the pooled one; asked:\n"
         "1e-4 before packing. Area: projected area over %d directions against the mean of |w . d|\n"
-        "over the fibers, mean / worst. No SGGX can follow the corners of few directions: beside "
-        "it\n"
+        "over the fibers, mean / worst. No SGGX can follow the corners of few directions: beside it\n"
         "stands the fit sigma_i = mean |w_i . d| of [Fabre26, eq. 15-16]. Stored: decoded from "
         "the\n"
         "voxel's 6 bytes. What packing adds by width of the lobe: sggx_packing.md.\n\n"
-        "| directions | M, fit | M, stored | area, fit | area, stored | area, sigma_i = mean | "
-        "stored lobes definite |\n|---|---|---|---|---|---|---|\n",
+        "| directions | M, fit | M, stored | area, fit | area, stored | area, sigma_i = mean | stored lobes definite |\n|---|---|---|---|---|---|---|\n",
         kTurns, kViews);
     CounterRandom random{9, 4};
     for (const DirectionSet& set : direction_sets()) {

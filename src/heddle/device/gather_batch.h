@@ -25,8 +25,8 @@ struct DeviceScene {
 struct BlockBatch {
     std::vector<std::uint32_t> numbers; ///< of the blocks in the range
     std::vector<BatchBlock> blocks;
-    std::array<std::vector<std::uint64_t>, kPrimitiveKinds>
-        first_pair; ///< per kind, per block and the end
+    /// per kind, per block and the end
+    std::array<std::vector<std::uint64_t>, kPrimitiveKinds> first_pair;
 };
 
 /// The primitives of a batch's blocks, kind by kind.

@@ -25,8 +25,8 @@ struct DeviceReport {
 
 /// How the device is used. Nothing is required.
 struct DeviceOptions {
-    std::int64_t memory_bytes =
-        0;           ///< of the device that may be in use at once; 0: 9/10 of what is free
+    /// of the device that may be in use at once; 0: 9/10 of what is free
+    std::int64_t memory_bytes = 0;
     int streams = 2; ///< batches that are on their way at once, each by a thread of the host
     std::int64_t batches = 0;       ///< at least so many; 0: as memory needs
     bool time_stages = false;       ///< each launch is waited for: slower as a whole

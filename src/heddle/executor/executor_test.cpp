@@ -54,8 +54,9 @@ TEST(HostExecutor, TakesNoMoreThanTheBudgetAndGivesItBack) {
             FAIL();
         } catch (const Error& e) {
             EXPECT_EQ(e.code(), ErrorCode::OutOfMemory);
-            EXPECT_STREQ(e.what(), "gather: 500 bytes of device memory are needed beside 600 in "
-                                   "use, 1000 may be used; raise --device-memory");
+            EXPECT_STREQ(
+                e.what(),
+                "gather: 500 bytes of device memory are needed beside 600 in use, 1000 may be used; raise --device-memory");
         }
         EXPECT_EQ(budget.used(), 600);
     }

@@ -24,8 +24,8 @@ struct CurveSet {
     std::vector<std::uint8_t> closed; ///< per curve, 1 = closed; empty: none is
     std::vector<float> radius;   ///< per point, scene units; empty: `default_radius` everywhere
     float default_radius = 0.0f; ///< scene units; 0: the file names none
-    std::vector<std::uint32_t>
-        color;                  ///< per point, linear RGB, 8 bits each in bits 0-23; empty: white
+    /// per point, linear RGB, 8 bits each in bits 0-23; empty: white
+    std::vector<std::uint32_t> color;
     std::uint32_t material = 0; ///< index into Geometry::materials
     std::int32_t yarn = -1;     ///< index into Geometry::yarns; -1: each curve is one round fiber
 

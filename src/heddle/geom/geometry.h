@@ -20,8 +20,8 @@ struct Geometry {
     std::vector<Material> materials; ///< at most 256: a voxel's lobe names one by a byte
     std::vector<Texture> textures;
     std::vector<YarnType> yarns;
-    std::vector<std::string>
-        notes; ///< what the reader assumed, one sentence each, for the user to see
+    /// what the reader assumed, one sentence each, for the user to see
+    std::vector<std::string> notes;
 
     /// The yarn that the set's curves are centrelines of, or null: each curve is one fiber.
     [[nodiscard]] const YarnType* yarn_of(const CurveSet& set) const {

@@ -34,11 +34,11 @@ struct Material {
     float alpha = 1.0f; ///< multiplies the texture's alpha
     float alpha_cutoff = 0.5f;
     float normal_scale = 1.0f; ///< multiplies the normal map's x and y
-    float height_scale =
-        0.0f; ///< displacement at height-map value 1, scene units, along the normal
+    /// displacement at height-map value 1, scene units, along the normal
+    float height_scale = 0.0f;
     float height_offset = 0.0f; ///< displacement at height-map value 0, scene units
-    float fiber_radius =
-        0.0f; ///< mean of the fibers that have this material, scene units; 0: unknown
+    /// mean of the fibers that have this material, scene units; 0: unknown
+    float fiber_radius = 0.0f;
     std::int32_t albedo_map = -1;
     std::int32_t normal_map = -1;
     std::int32_t metal_rough_map = -1;

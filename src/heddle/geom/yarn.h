@@ -44,15 +44,15 @@ struct YarnType {
     float density_epsilon = 0.0f; ///< p(R) ~ (1 - 2 eps) ((e - e^R) / (e - 1))^beta + eps
     float density_beta = 0.2f;
     float density_r_max = 1.0f; ///< R in [0, r_max], of the unit ply section
-    bool migration =
-        false; ///< R(z) = R/2 (max + min + (max - min) cos(theta_i + s 2 pi z / pitch))
+    /// R(z) = R/2 (max + min + (max - min) cos(theta_i + s 2 pi z / pitch))
+    bool migration = false;
     float migration_frequency = 1.0f; ///< s_i
     float migration_min = 1.0f;
     float migration_max = 1.0f;
     bool flyaways = false;
     float hair_density = 0.0f; ///< hairs per ply and unit length
-    MeanSd hair_ze, hair_r0, hair_re,
-        hair_pe;               ///< extent along z, start radius, radial extent, angle
+    /// extent along z, start radius, radial extent, angle
+    MeanSd hair_ze, hair_r0, hair_re, hair_pe;
     float loop_density = 0.0f; ///< loops per ply and unit length
     MeanSd loop_r1;            ///< distance from the ply's axis that a loop reaches
 

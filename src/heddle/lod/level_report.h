@@ -31,9 +31,8 @@ struct LevelErrors {
     double cells = 0.0;  ///< mean of DirectionError::cells; the truth's own noise is about .016
     double moment = 0.0; ///< median of DirectionError::moment
     double moment_worst = 0.0;
-    double lost =
-        0.0; ///< mean share of directed area whose kind, tangents or normals, no lobe has:
-             ///< it is not in the errors above
+    /// mean share of directed area whose kind, tangents or normals, no lobe has: it is not in the errors above
+    double lost = 0.0;
     std::optional<double> coverage; ///< mean of |c - truth| over parents and axes
     std::optional<double> coverage_worst;
 };

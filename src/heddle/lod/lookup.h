@@ -68,8 +68,8 @@ struct VoxelView {
     std::span<const LobeMaps> maps;       ///< as many, or none
     std::span<const PackedSggx> tangents; ///< as many, or none
     std::uint32_t merge_order = 0;        ///< VoxelBlock::merge_order
-    const std::array<std::uint64_t, 3>* footprints =
-        nullptr; ///< VoxelBlock::footprints; may be null
+    /// VoxelBlock::footprints; may be null
+    const std::array<std::uint64_t, 3>* footprints = nullptr;
     const std::array<std::uint8_t, 3>* correlation = nullptr; ///< may be null
 };
 

@@ -13,8 +13,8 @@ namespace heddle {
 
 /// All directions below a voxel, tangents and normals apart.
 struct ParentTruth {
-    std::array<std::unique_ptr<DirectionTruth>, 2>
-        of; ///< by "are normals"; null where there are none
+    /// by "are normals"; null where there are none
+    std::array<std::unique_ptr<DirectionTruth>, 2> of;
 
     /// Adds a child's.
     void add(const ParentTruth& child);

@@ -12,8 +12,8 @@
 namespace heddle::opengl {
 namespace {
 
-constexpr const char* kFix = "install libegl1, libgl1 and a driver (Debian: libgl1-mesa-dri has "
-                             "one that needs no GPU), or use --backend sample";
+constexpr const char* kFix =
+    "install libegl1, libgl1 and a driver (Debian: libgl1-mesa-dri has one that needs no GPU), or use --backend sample";
 
 [[noreturn]] void fail(const std::string& what) {
     throw Error(ErrorCode::Device, "opengl: " + what, kFix);

@@ -161,8 +161,8 @@ private:
     /// More than what is exact in the mean: the parts that a ray meets do not add up to just 1. At 1
     /// slanted surfaces look moth-eaten, at 1.5 closed; edges come out half a voxel wider.
     static constexpr float kClosing = 1.5f;
-    static constexpr double kSheetGap =
-        0.5; ///< voxels that a ray may pass between two of a sheet's
+    /// voxels that a ray may pass between two of a sheet's
+    static constexpr double kSheetGap = 0.5;
 
     bool clip(Vec3d p, Vec3d d, double& t, double& t_end) const {
         t = 0.0;

@@ -24,8 +24,8 @@ struct PreviewOptions {
     PreviewColor color = PreviewColor::Albedo;
     std::optional<Vec3d> from; ///< direction from the object to the eye, any length but 0; none:
                                ///< three quarters from the front, from above
-    std::int32_t up_axis =
-        -1; ///< 0, 1, 2; -1: z where the object is flat and wide along x and y, else y
+    /// 0, 1, 2; -1: z where the object is flat and wide along x and y, else y
+    std::int32_t up_axis = -1;
     double field_of_view = 0.0; ///< radians across the picture's height, below pi; 0: orthographic
     std::int32_t rays = 1;      ///< per pixel and axis, 1 to 8
     bool transparent = false;   ///< alpha as seen; else over white and opaque

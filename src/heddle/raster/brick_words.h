@@ -17,8 +17,8 @@ constexpr std::size_t kBrickWords = 512 * kVoxelWords;
 struct WordForm {
     int subvoxels = 8;
     Composition composition = Composition::Accumulate;
-    int weight_bits =
-        0; ///< a directed area of 1 unit^2 weighs 2^weight_bits, in each of three passes
+    /// a directed area of 1 unit^2 weighs 2^weight_bits, in each of three passes
+    int weight_bits = 0;
     std::uint32_t material = 0;
     friend bool operator==(const WordForm&, const WordForm&) = default;
 };

@@ -19,8 +19,8 @@ namespace {
 
 constexpr std::size_t kGroupsOffset = 4 * sizeof(std::uint32_t); ///< in kListGlsl's Draw
 constexpr std::size_t kMostOffset = 7 * sizeof(std::uint32_t);
-constexpr std::uint32_t kSlabLanes =
-    8; ///< these two: as kSlabLanesGlsl and kSlabLoopGlsl have them
+/// these two: as kSlabLanesGlsl and kSlabLoopGlsl have them
+constexpr std::uint32_t kSlabLanes = 8;
 constexpr std::uint32_t kTurns = 64;
 
 std::string join(std::initializer_list<std::string_view> parts) {

@@ -60,8 +60,8 @@ struct SceneObject {
     std::int64_t fibers = 0;  ///< per yarn; 0: what the model says
     double fiber_radius = 0.0;
     std::vector<Affine> instances; ///< object to world; one at least
-    std::map<std::string, std::string>
-        materials; ///< material of the input -> of the scene; "*": all
+    /// material of the input -> of the scene; "*": all
+    std::map<std::string, std::string> materials;
 };
 
 /// A whole scene, as a file describes it: paths resolved, nothing loaded.

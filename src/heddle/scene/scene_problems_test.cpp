@@ -44,8 +44,8 @@ TEST(SceneProblems, UnknownKeysNameTheNearest) {
         {"[camera]\nkind = \"orthographic\"\nview_angle = 30\n", "unknown key 'view_angle'"},
         {light("point", "position = [0, 0, 0]\nimage = \"a.png\""),
          "unknown key 'image' in a light of kind 'point'"},
-        {material("fiber", "albdo = 0.5"), "scene.toml:3: unknown key 'albdo' in a material of "
-                                           "model 'fiber'; did you mean 'albedo'?"},
+        {material("fiber", "albdo = 0.5"),
+         "scene.toml:3: unknown key 'albdo' in a material of model 'fiber'; did you mean 'albedo'?"},
         {object_with("rotat = [0, 0, 1, 5]"), "did you mean 'rotate'?"},
         {object_with("[[object.a.instance]]\nmatrx = 1"), "did you mean 'matrix'?"},
         {"[object.a]\ngenerate = { kind = \"plain\", nz = 3 }\n", "unknown key 'nz' in 'generate'"},
@@ -172,8 +172,9 @@ TEST(SceneProblems, ANameGivenTwiceSaysWhereTheFirstWas) {
               "them");
     const std::string same =
         problems_of(folder, material("hair", "") + "[ material . m ]\nmodel = \"fiber\"\n");
-    EXPECT_EQ(same, "scene.toml:4: [material.m] is defined at scene.toml:1 already; drop or rename "
-                    "one of them");
+    EXPECT_EQ(
+        same,
+        "scene.toml:4: [material.m] is defined at scene.toml:1 already; drop or rename one of them");
 }
 
 TEST(SceneProblems, AllProblemsOfAFileAndItsIncludesComeAtOnceInOrder) {

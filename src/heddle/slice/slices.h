@@ -48,8 +48,8 @@ struct PlaceOptions {
     double spacing = 0.0;     ///< units, at most; 0: half of the yarn's radius, 1 at
                               ///< least, on a lattice at most 16
     double most_slices = 0.0; ///< over all; 0: 2^32 - 1
-    std::int64_t chunk_bytes =
-        0;               ///< of a chunk; 0, or more than that: what one buffer of the driver holds
+    /// of a chunk; 0, or more than that: what one buffer of the driver holds
+    std::int64_t chunk_bytes = 0;
     bool lattice = true; ///< they are to be voxels: a twist that no lattice of these units shows is
                          ///< refused
     const PlacePrograms* programs = nullptr; ///< null: they are compiled for this call

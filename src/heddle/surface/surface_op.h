@@ -46,8 +46,8 @@ struct TriangleSetup {
     Vec3d normal{};        ///< the same, as `hit_weight` takes it
     bool smooth = false;   ///< vertex normals vary
     bool textured = false; ///< `uv` holds
-    std::int32_t run =
-        1; ///< neighbouring hits of a row that one sample, at their middle, stands for
+    /// neighbouring hits of a row that one sample, at their middle, stands for
+    std::int32_t run = 1;
     std::array<Vec3f, 3> normals{};
     std::array<Vec3f, 3> tangents{};
     float handedness = 1.0f; ///< bitangent = handedness x cross(normal, tangent)

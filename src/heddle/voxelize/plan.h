@@ -22,8 +22,8 @@ struct VoxelizePlan {
     std::int64_t primitives = 0; ///< spans and triangles
     double steps = 0.0;          ///< subvoxel edges of fiber length, counted along the centrelines
     double step_length = 0.0;    ///< scene units
-    double chord_error =
-        0.0; ///< largest distance of a fiber from the chords it is sampled by, subvoxels
+    /// largest distance of a fiber from the chords it is sampled by, subvoxels
+    double chord_error = 0.0;
     // measured on a sample of the blocks:
     std::int64_t voxels = 0;
     std::int64_t lobes = 0;
@@ -34,8 +34,8 @@ struct VoxelizePlan {
     std::int64_t visitor_bytes = 0; ///< what it holds while it works, of the peak
     double visitor_seconds = 0.0;   ///< CPU time it takes, of `seconds`
     bool spool = false;             ///< finished blocks wait in a temporary file
-    double seconds =
-        0.0; ///< predicted, on `thread_count()` threads of the machine that was measured
+    /// predicted, on `thread_count()` threads of the machine that was measured
+    double seconds = 0.0;
 };
 
 /// The part of plan_voxelize() that needs no look at the blocks: lattice, bounds and range of voxels.

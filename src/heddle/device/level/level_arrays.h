@@ -15,14 +15,13 @@ struct LevelArrays {
     int level = 0;
     std::size_t voxel_count = 0;
     std::size_t lobe_count = 0;
-    executor::Array<std::uint64_t>
-        key; ///< per voxel: (number of the block in the batch << 15 | place in
-             ///< Z-order (block_cell.h)) >> 3 level: a parent's is key >> 3
+    /// per voxel: (number of the block in the batch << 15 | place in Z-order (block_cell.h)) >> 3 level: a parent's is key >> 3
+    executor::Array<std::uint64_t> key;
     executor::Array<std::uint32_t> hits;       ///< per voxel: subvoxels, at most 2^24 at level 5
     executor::Array<std::uint32_t> first_lobe; ///< per voxel, and the end
     executor::Array<std::uint32_t> order;      ///< per voxel: VoxelBlock::merge_order
-    executor::Array<std::uint64_t>
-        columns; ///< per voxel 3 x 4^level words, axis by axis, as OpenLevel
+    /// per voxel 3 x 4^level words, axis by axis, as OpenLevel
+    executor::Array<std::uint64_t> columns;
     executor::Array<DirectionSums> lobes;
     executor::Array<MapSums> maps; ///< per lobe; with map sums only
 

@@ -161,9 +161,9 @@ Geometry read_bcc(const std::string& path, const CurveReadOptions& options) {
     Geometry geometry = make_curve_geometry(std::move(set), path, "yarn");
     geometry.notes.push_back(describe_up_axis(header.up_axis));
     if (opened > 0) {
-        geometry.notes.push_back(str(opened, opened == 1 ? " curve is" : " curves are",
-                                     " marked closed with the ends more than 16 of the longest "
-                                     "steps apart, read as open"));
+        geometry.notes.push_back(str(
+            opened, opened == 1 ? " curve is" : " curves are",
+            " marked closed with the ends more than 16 of the longest steps apart, read as open"));
     }
     note_trailing_bytes(file, geometry);
     settle_yarn_radius(options, geometry);

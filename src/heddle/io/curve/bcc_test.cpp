@@ -109,10 +109,10 @@ TEST(Bcc, TooFewPointsAreCountedAndToldOnce) {
     const std::string good = curve(4, 4);
     const std::string path = folder.write("scarf.bcc", header("C0", 4, 11) + good + curve(3, 3) +
                                                            curve(-2, 2) + curve(-2, 2));
-    expect_error(ErrorCode::BadFile,
-                 "scarf.bcc: byte 116: curve 1 has 3 control points, a cubic needs at least 4 (and "
-                 "2 more problems); drop the curve or store it as 'PL'",
-                 [&] { read(path); });
+    expect_error(
+        ErrorCode::BadFile,
+        "scarf.bcc: byte 116: curve 1 has 3 control points, a cubic needs at least 4 (and 2 more problems); drop the curve or store it as 'PL'",
+        [&] { read(path); });
     expect_error(ErrorCode::BadFile, "has 0 control points, a cubic needs at least 4",
                  [&] { read(folder.write("b.bcc", header("BS", 2, 4) + good + curve(0, 0))); });
     expect_error(ErrorCode::BadFile, "curve 0 has 1 control point, a polyline needs at least 2",

@@ -131,10 +131,10 @@ void settle_yarn_radius(const CurveReadOptions& options, Geometry& geometry) {
     // no yarn beside it: hundredth of its extent is thin enough to be a yarn and thick enough to
     // see
     set.default_radius = round_to_three_digits(40.0f * default_hair_radius(set));
-    geometry.notes.push_back(str("radius ", three_digits(set.default_radius),
-                                 " is 1/100 of the longest side: no neighbouring yarns to estimate "
-                                 "it from; ",
-                                 kRadiusOption));
+    geometry.notes.push_back(
+        str("radius ", three_digits(set.default_radius),
+            " is 1/100 of the longest side: no neighbouring yarns to estimate it from; ",
+            kRadiusOption));
 }
 
 void settle_hair_radius(const CurveReadOptions& options, Geometry& geometry) {
@@ -142,10 +142,10 @@ void settle_hair_radius(const CurveReadOptions& options, Geometry& geometry) {
     if (take_radius_option(options, set)) return;
     set.radius.clear();
     set.default_radius = round_to_three_digits(default_hair_radius(set));
-    geometry.notes.push_back(str("radius ", three_digits(set.default_radius),
-                                 " is the default for hair, 1/4000 of the longest side: the file "
-                                 "names none; ",
-                                 kRadiusOption));
+    geometry.notes.push_back(
+        str("radius ", three_digits(set.default_radius),
+            " is the default for hair, 1/4000 of the longest side: the file names none; ",
+            kRadiusOption));
 }
 
 std::string three_digits(float x) {

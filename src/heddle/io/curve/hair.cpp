@@ -168,9 +168,9 @@ void settle_radius(const HairHeader& h, const CurveReadOptions& options, Geometr
         geometry.notes.emplace_back("radius is half of the file's thickness array");
     } else {
         set.default_radius = 0.5f * h.thickness;
-        geometry.notes.push_back(str("radius ", three_digits(set.default_radius),
-                                     " is half of the header's default thickness; set it with "
-                                     "--yarn-radius"));
+        geometry.notes.push_back(
+            str("radius ", three_digits(set.default_radius),
+                " is half of the header's default thickness; set it with --yarn-radius"));
     }
 }
 

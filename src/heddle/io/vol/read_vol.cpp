@@ -264,8 +264,8 @@ VolVolume read_vol(const VolLayout& layout, const VolOptions& options, Progress&
                                 "face; give a scene's 'scale' as --density-scale"));
     }
     if (!layout.orientation_encoding) {
-        out.notes.push_back("no directions: all voxels are isotropic; name their file with "
-                            "--orientation");
+        out.notes.push_back(
+            "no directions: all voxels are isotropic; name their file with --orientation");
     } else if (counts.isotropic > 0) {
         out.notes.push_back(str(counts.isotropic, " of ", counts.voxels,
                                 " voxels have no direction: they are isotropic"));

@@ -14,9 +14,9 @@ TEST(Scarf, ThreeBlocksOfItGiveVoxelsOnOneLattice) {
     const std::string archive = find_data("volume/scarf-part.tar.xz");
     if (archive.empty()) GTEST_SKIP() << "needs volume/scarf-part.tar.xz of the test data";
     const TempFolder folder;
-    const std::string unpack = "tar xJf '" + archive + "' -C '" + folder.path() +
-                               "' --strip-components 2 --wildcards '*description.vol' "
-                               "'*_009_001_00[45]-*.vol' '*_009_002_004-*.vol' 2>/dev/null";
+    const std::string unpack =
+        "tar xJf '" + archive + "' -C '" + folder.path() +
+        "' --strip-components 2 --wildcards '*description.vol' '*_009_001_00[45]-*.vol' '*_009_002_004-*.vol' 2>/dev/null";
     if (std::system(unpack.c_str()) != 0) GTEST_SKIP() << "needs tar and xz";
     expect_error(ErrorCode::BadFile, "lists block 8 0 3", [&] {
         static_cast<void>(find_vol_layout(folder.file("volume_description.vol")));

@@ -244,8 +244,7 @@ std::string scene_text(const Bounds& box, double scale, double stddev, Vec3f alb
         "    <string name=\"method\" value=\"woodcock\"/>\n", "    <float name=\"scale\" value=\"",
         scale, "\"/>\n", volume_element("density", "density_"),
         volume_element("orientation", "orientation_"),
-        "    <volume name=\"albedo\" type=\"constvolume\">\n      <spectrum name=\"value\" "
-        "value=\"",
+        "    <volume name=\"albedo\" type=\"constvolume\">\n      <spectrum name=\"value\" value=\"",
         albedo.x, ", ", albedo.y, ", ", albedo.z, "\"/>\n    </volume>\n",
         "    <phase type=\"microflake\">\n      <float name=\"stddev\" value=\"", stddev,
         "\"/>\n    </phase>\n  </medium>\n  <shape type=\"cube\">\n",

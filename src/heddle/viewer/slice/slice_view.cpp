@@ -43,11 +43,11 @@ void check_look(const SliceLook& look) {
         look.map_size <= 8192) {
         return;
     }
-    throw Error(ErrorCode::InvalidArgument,
-                str("view: opacity ", look.opacity, ", a shadow map of ", look.map_size,
-                    " pixels, a light of length ", length(look.light)),
-                "use an opacity above 0, a map of 16 to 8192 pixels and a light of any length "
-                "but 0");
+    throw Error(
+        ErrorCode::InvalidArgument,
+        str("view: opacity ", look.opacity, ", a shadow map of ", look.map_size,
+            " pixels, a light of length ", length(look.light)),
+        "use an opacity above 0, a map of 16 to 8192 pixels and a light of any length but 0");
 }
 
 } // namespace

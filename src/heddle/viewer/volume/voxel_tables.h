@@ -68,8 +68,8 @@ private:
     int first_ = 0;
     std::vector<VoxelTableBytes> bytes_;
     std::vector<Vec3i> blocks_;
-    std::vector<opengl::Buffer>
-        buffers_; ///< cells, leaf table, leaves, three words of voxels, levels
+    /// cells, leaf table, leaves, three words of voxels, levels
+    std::vector<opengl::Buffer> buffers_;
 };
 
 } // namespace heddle::viewer

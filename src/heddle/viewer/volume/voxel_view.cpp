@@ -80,12 +80,11 @@ void check_look(const VoxelLook& look) {
         std::isfinite(look.density_scale) && std::isfinite(look.level_offset) && look.level >= -1) {
         return;
     }
-    throw Error(ErrorCode::InvalidArgument,
-                str("view: level ", look.level, ", an offset of ", look.level_offset,
-                    " levels, a density scale of ", look.density_scale, ", a light of length ",
-                    light),
-                "use a level from -1 on, a finite offset, a scale above 0 and a light of any "
-                "length but 0");
+    throw Error(
+        ErrorCode::InvalidArgument,
+        str("view: level ", look.level, ", an offset of ", look.level_offset,
+            " levels, a density scale of ", look.density_scale, ", a light of length ", light),
+        "use a level from -1 on, a finite offset, a scale above 0 and a light of any length but 0");
 }
 
 /// How far from the eye all of a box begins; in perspective not behind the eye.
