@@ -1,4 +1,5 @@
 #include <heddle/base/error.h>
+#include <heddle/base/show_number.h>
 #include <heddle/cli/commands.h>
 #include <heddle/cli/load.h>
 #include <heddle/cli/terminal/progress_bar.h>

@@ -1,3 +1,4 @@
+#include <heddle/base/show_number.h>
 #include <heddle/cli/level_options.h>
 #include <heddle/lod/rebuild_levels.h>
 

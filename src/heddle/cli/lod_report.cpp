@@ -1,6 +1,7 @@
 #include <heddle/base/error.h>
 #include <heddle/base/memory.h>
 #include <heddle/base/nearest_name.h>
+#include <heddle/base/show_number.h>
 #include <heddle/cli/commands.h>
 #include <heddle/cli/load.h>
 #include <heddle/cli/lod_table.h>

@@ -1,3 +1,4 @@
+#include <heddle/base/show_number.h>
 #include <heddle/cli/plot.h>
 
 #include <heddle/base/vec.h>

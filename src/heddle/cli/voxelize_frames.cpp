@@ -1,3 +1,4 @@
+#include <heddle/base/show_number.h>
 #include <heddle/cli/voxelize_frames.h>
 
 #include <heddle/base/error.h>

@@ -1,3 +1,4 @@
+#include <heddle/base/show_number.h>
 #include <heddle/cli/terminal/progress_bar.h>
 #include <heddle/cli/terminal/text.h>
 

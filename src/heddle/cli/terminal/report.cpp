@@ -1,4 +1,5 @@
 #include <heddle/base/error.h>
+#include <heddle/base/show_number.h>
 #include <heddle/cli/terminal/report.h>
 #include <heddle/cli/terminal/text.h>
 
