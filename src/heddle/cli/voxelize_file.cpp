@@ -1,14 +1,15 @@
+#include <heddle/base/show_number.h>
 #include <heddle/cli/voxelize_file.h>
 
 #include <heddle/base/memory.h>
 #include <heddle/cli/device_options.h>
-#include <heddle/cli/fill_memory.h>
 #include <heddle/cli/level_options.h>
 #include <heddle/cli/load.h>
 #include <heddle/cli/terminal/text.h>
 #include <heddle/cli/voxel_options.h>
 #include <heddle/cli/voxelize_raster.h>
 #include <heddle/io/vdb/write_vdb.h>
+#include <heddle/job/voxelize/fill_memory.h>
 #include <heddle/voxelize/voxelize.h>
 
 #include <chrono>
@@ -135,7 +136,7 @@ VoxelizedFile voxelize_file(const Arguments& arguments,
         return out;
     };
     if (arguments.given("fill-memory")) {
-        options.voxels = voxels_that_fit(options, [&](const VoxelizeOptions& how) {
+        options.voxels = job::voxels_that_fit(options, [&](const VoxelizeOptions& how) {
             return plan_of(how, level_builder(arguments).get());
         });
     }

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <functional>
 
-namespace heddle::cli {
+namespace heddle::job {
 
 /// Voxels along the longest axis: as many as fit into memory without a temporary file, to 2 %, as
 /// [LopezMoreno17, 3.4] chooses its resolution.
@@ -16,4 +16,4 @@ namespace heddle::cli {
 voxels_that_fit(const VoxelizeOptions& options,
                 const std::function<VoxelizePlan(const VoxelizeOptions&)>& plan_of);
 
-} // namespace heddle::cli
+} // namespace heddle::job

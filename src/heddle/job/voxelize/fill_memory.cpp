@@ -1,8 +1,8 @@
 #include <heddle/base/error.h>
 #include <heddle/base/memory.h>
-#include <heddle/cli/fill_memory.h>
+#include <heddle/job/voxelize/fill_memory.h>
 
-namespace heddle::cli {
+namespace heddle::job {
 
 std::int64_t voxels_that_fit(const VoxelizeOptions& options,
                              const std::function<VoxelizePlan(const VoxelizeOptions&)>& plan_of) {
@@ -28,7 +28,7 @@ std::int64_t voxels_that_fit(const VoxelizeOptions& options,
         throw Error(ErrorCode::OutOfMemory,
                     str("voxelize: not even ", kLeast, " voxels along the longest axis fit into ",
                         limit >> 20, " MiB"),
-                    "give a larger --memory");
+                    "give a larger `memory`");
     }
     std::int64_t least = kLeast; // fits
     std::int64_t most = 2 * kLeast;
@@ -43,4 +43,4 @@ std::int64_t voxels_that_fit(const VoxelizeOptions& options,
     return least;
 }
 
-} // namespace heddle::cli
+} // namespace heddle::job

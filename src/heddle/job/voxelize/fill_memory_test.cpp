@@ -1,10 +1,10 @@
-#include <heddle/cli/fill_memory.h>
+#include <heddle/job/voxelize/fill_memory.h>
 
 #include <heddle/base/error.h>
 
 #include <gtest/gtest.h>
 
-namespace heddle::cli {
+namespace heddle::job {
 namespace {
 
 /// A cloth: 40 bytes for each voxel of its face, and a temporary file above 3000 voxels along.
@@ -50,4 +50,4 @@ TEST(FillMemory, SaysWhenNothingFitsAndPassesOtherErrorsOn) {
 }
 
 } // namespace
-} // namespace heddle::cli
+} // namespace heddle::job
