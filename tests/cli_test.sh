@@ -69,6 +69,19 @@ works generate knit --counts 6,6 -o knit.bcc
 works generate grass --counts 20,4 -o grass.glb
 works generate hair --counts 50,8 -o hair.hair
 
+# a weave's file holds its warp and its weft: NX yarns of 8 NY + 3 points, NY of 8 NX + 3, as the report says
+number() { od -An -t u8 -j "$1" -N 8 "$2" | tr -d ' '; }
+for kind in plain twill satin; do
+    works generate $kind --counts 7,5 -o weave.bcc --json
+    points=$(number 16 weave.bcc)
+    [ "$(number 8 weave.bcc)" -eq 12 ] || wrong "$kind: $(number 8 weave.bcc) curves are in the file, not 7 + 5"
+    [ "$points" -eq $((7 * 43 + 5 * 59)) ] || wrong "$kind: $points points are in the file"
+    [ "$points" -eq "$(json nodes)" ] || wrong "$kind: $points points are in the file, the report says $(json nodes)"
+    [ "$(wc -c <weave.bcc)" -eq $((64 + 12 * 4 + points * 12)) ] || wrong "$kind: $(wc -c <weave.bcc) bytes"
+    works info weave.bcc --json
+    [ "$(json curves)" -eq 12 ] || wrong "$kind: info sees $(json curves) curves"
+done
+
 # a slice, its yarn, and OpenGL: the same bits at any thread count; one line where there is no driver
 works slice cotton --size 64 -o slice.png --yarn-file slice.toml --occlusion dark.png --mipmaps sizes.png
 fails 2 "is not a procedural yarn" slice slice.toml -o again.png

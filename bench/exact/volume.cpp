@@ -40,7 +40,9 @@ void print_volumes() {
         "and plain weave: 6 x 6 of `heddle generate`. Copies turned and moved at random until "
         "they\n"
         "fill 400,000 subvoxels (the figures' own scatter is about .3 at the thinnest). Asked: 1 "
-        "%%.\n\n"
+        "%%.\n"
+        "The row of plain weave is of half a cloth: warp yarns alone, which the benchmark "
+        "takes.\n\n"
         "| yarns |");
     for (const double r : kRadii) std::printf(" %g |", r);
     std::printf("\n|---|");
