@@ -198,6 +198,9 @@ mesh() { # TEXT FACE X: a mesh of three points, the first at X
     printf 'v %s 0 0\nv 1 0 0\nv 0 1 0\nf %s\n' "$3" "$2" >bad.obj && bad "$1" bad.obj
 }
 mesh "bad.obj:4" "1 2 4" 0
+printf 'v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3000000\r' >bad.obj && bad "bad.obj:4: names vertex 3000000 of 3" bad.obj
+printf '# a Mac\rv 0 0 0\rv 1 0 0\rv 0 1 0\rf 1/ 2 3\r' >mac.obj && works info mac.obj --json
+[ "$(json triangles)" -eq 1 ] || wrong "a file of carriage returns has $(json triangles) triangles"
 mesh "bad.obj:1" "1 2 3" nan
 mesh "bad.obj:1" "1 2 3" 1e39
 printf 'v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n' >point.obj && bad "has no extent" point.obj
