@@ -301,6 +301,16 @@ fi
 works info one.vdb
 grep -q '^level 0 .* KiB' out.txt || wrong "info lists no level 0: $(cat out.txt)"
 works voxelize knit.bcc --yarn cotton --voxels 64 --levels 0 -o flat.vdb
+# what neighbours share: level 0 alone has the bytes of level 0 among all
+for backend in sample raster; do
+    works voxelize knit.bcc --yarn slice.toml --voxels 64 --correlation --backend $backend -o shared.vdb
+    works voxelize knit.bcc --yarn slice.toml --voxels 64 --correlation --backend $backend --levels 0 -o shared0.vdb
+    works lod shared.vdb --levels 0 -o cut.vdb
+    works info shared0.vdb --json && hash0=$(json content_hash)
+    works info cut.vdb --json && [ "$(json content_hash)" = "$hash0" ] || wrong "--levels 0 has another correlation, $backend"
+    works voxelize knit.bcc --yarn slice.toml --voxels 64 --backend $backend --levels 0 -o shared0.vdb
+    works info shared0.vdb --json && [ "$(json content_hash)" != "$hash0" ] || wrong "no correlation is stored, $backend"
+done
 fails 3 "flat.vdb: has no level 1; its only level is 0" preview flat.vdb --level 1 -o one.png
 fails 3 "one.vdb: has no level 9; its levels are 0 to 6" preview one.vdb --level 9 -o one.png
 works preview one.vdb --level 5 -o one.png
