@@ -69,6 +69,19 @@ works generate knit --counts 6,6 -o knit.bcc
 works generate grass --counts 20,4 -o grass.glb
 works generate hair --counts 50,8 -o hair.hair
 
+# a weave's file holds its warp and its weft: NX yarns of 8 NY + 3 points, NY of 8 NX + 3, as the report says
+number() { od -An -t u8 -j "$1" -N 8 "$2" | tr -d ' '; }
+for kind in plain twill satin; do
+    works generate $kind --counts 7,5 -o weave.bcc --json
+    points=$(number 16 weave.bcc)
+    [ "$(number 8 weave.bcc)" -eq 12 ] || wrong "$kind: $(number 8 weave.bcc) curves are in the file, not 7 + 5"
+    [ "$points" -eq $((7 * 43 + 5 * 59)) ] || wrong "$kind: $points points are in the file"
+    [ "$points" -eq "$(json nodes)" ] || wrong "$kind: $points points are in the file, the report says $(json nodes)"
+    [ "$(wc -c <weave.bcc)" -eq $((64 + 12 * 4 + points * 12)) ] || wrong "$kind: $(wc -c <weave.bcc) bytes"
+    works info weave.bcc --json
+    [ "$(json curves)" -eq 12 ] || wrong "$kind: info sees $(json curves) curves"
+done
+
 # a slice, its yarn, and OpenGL: the same bits at any thread count; one line where there is no driver
 works slice cotton --size 64 -o slice.png --yarn-file slice.toml --occlusion dark.png --mipmaps sizes.png
 fails 2 "is not a procedural yarn" slice slice.toml -o again.png
@@ -185,6 +198,9 @@ mesh() { # TEXT FACE X: a mesh of three points, the first at X
     printf 'v %s 0 0\nv 1 0 0\nv 0 1 0\nf %s\n' "$3" "$2" >bad.obj && bad "$1" bad.obj
 }
 mesh "bad.obj:4" "1 2 4" 0
+printf 'v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3000000\r' >bad.obj && bad "bad.obj:4: names vertex 3000000 of 3" bad.obj
+printf '# a Mac\rv 0 0 0\rv 1 0 0\rv 0 1 0\rf 1/ 2 3\r' >mac.obj && works info mac.obj --json
+[ "$(json triangles)" -eq 1 ] || wrong "a file of carriage returns has $(json triangles) triangles"
 mesh "bad.obj:1" "1 2 3" nan
 mesh "bad.obj:1" "1 2 3" 1e39
 printf 'v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n' >point.obj && bad "has no extent" point.obj
@@ -285,6 +301,16 @@ fi
 works info one.vdb
 grep -q '^level 0 .* KiB' out.txt || wrong "info lists no level 0: $(cat out.txt)"
 works voxelize knit.bcc --yarn cotton --voxels 64 --levels 0 -o flat.vdb
+# what neighbours share: level 0 alone has the bytes of level 0 among all
+for backend in sample raster; do
+    works voxelize knit.bcc --yarn slice.toml --voxels 64 --correlation --backend $backend -o shared.vdb
+    works voxelize knit.bcc --yarn slice.toml --voxels 64 --correlation --backend $backend --levels 0 -o shared0.vdb
+    works lod shared.vdb --levels 0 -o cut.vdb
+    works info shared0.vdb --json && hash0=$(json content_hash)
+    works info cut.vdb --json && [ "$(json content_hash)" = "$hash0" ] || wrong "--levels 0 has another correlation, $backend"
+    works voxelize knit.bcc --yarn slice.toml --voxels 64 --backend $backend --levels 0 -o shared0.vdb
+    works info shared0.vdb --json && [ "$(json content_hash)" != "$hash0" ] || wrong "no correlation is stored, $backend"
+done
 fails 3 "flat.vdb: has no level 1; its only level is 0" preview flat.vdb --level 1 -o one.png
 fails 3 "one.vdb: has no level 9; its levels are 0 to 6" preview one.vdb --level 9 -o one.png
 works preview one.vdb --level 5 -o one.png

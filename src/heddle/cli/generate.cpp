@@ -48,9 +48,12 @@ GenerateOptions generate_options(const Arguments& arguments) {
 void write_geometry(const Geometry& geometry, GenerateKind kind, const std::string& path) {
     const std::string suffix = suffix_for(kind);
     if (suffix == ".glb") return write_glb(geometry, path);
-    const CurveSet& set = geometry.curves.front();
-    if (suffix == ".hair") return write_hair(set, path);
-    write_bcc(set, path);
+    if (suffix == ".bcc") return write_bcc(geometry.curves, path);
+    if (geometry.curves.size() != 1) {
+        throw Error(ErrorCode::Internal, str("generate: ", geometry.curves.size(),
+                                             " sets of strands, a .hair file takes one"));
+    }
+    write_hair(geometry.curves.front(), path);
 }
 
 void run_generate(const Arguments& arguments, Report& report, ProgressBar& bar) {

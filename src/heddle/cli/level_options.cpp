@@ -42,7 +42,8 @@ LodOptions lod_options(const Arguments& arguments) {
 
 std::unique_ptr<LevelBuilder> level_builder(const Arguments& arguments) {
     const LodOptions options = lod_options(arguments);
-    return options.max_levels == 0 ? nullptr : std::make_unique<LevelBuilder>(options);
+    if (options.max_levels == 0 && !arguments.given("correlation")) return nullptr;
+    return std::make_unique<LevelBuilder>(options); // it finds what level 0's neighbours share too
 }
 
 VoxelLevels
