@@ -49,7 +49,7 @@ CMAKE
 # words
 works
 [ "$(wc -l <out.txt)" -eq 8 ] || wrong "heddle alone prints $(wc -l <out.txt) lines, not 8"
-for name in $("$heddle" help-tables | sed -n 's/^\*\*heddle \(.*\)\*\*$/\1/p'); do
+for name in $("$heddle" help-tables | sed -n 's/^## heddle \(.*\)$/\1/p'); do
     grep -qw -- "$name" out.txt || wrong "heddle alone does not name $name"
 done
 works --version

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <sstream>
 
 namespace heddle::cli {
 namespace {
@@ -38,7 +39,7 @@ TEST(CommandLine, AnOptionThatRepeatsKeepsItsValuesInOrder) {
                         "heddle material");
     EXPECT_EQ(a.texts("set"), (std::vector<std::string>{"b.alpha=1", "a.name=2"}));
     EXPECT_EQ(a.texts("output"), std::vector<std::string>{});
-    EXPECT_NE(help_text(material_command()).find("may be given again"), std::string::npos);
+    EXPECT_NE(help_text(material_command()).find("can be repeated"), std::string::npos);
 }
 
 TEST(CommandLine, NegativeNumbersAreValues) {
@@ -85,6 +86,66 @@ TEST(CommandLine, EveryPresetIsAValueThatItsOwnRowAllows) {
 }
 
 TEST(CommandLine, HelpHasALineForEveryOption) {
+TEST(CommandLine, HelpHasEachRowUnderTheHeadingOfItsGroup) {
+    for (const Command& command : commands()) {
+        std::vector<Option> options = command.options;
+        options.insert(options.end(), common_options().begin(), common_options().end());
+        const std::string text = help_text(command);
+        std::size_t line = 0, heading = 0;
+        std::string group;
+        for (const Option& option : options) {
+            ASSERT_FALSE(option.group.empty()) << command.name << " " << option.names;
+            if (option.group != group) {
+                group = option.group;
+                const std::string words = "\n\n" + group + ":\n";
+                heading = text.find(words);
+                ASSERT_NE(heading, std::string::npos) << command.name << " " << group;
+                EXPECT_GT(heading, line) << command.name << " " << group;
+                EXPECT_EQ(text.find(words, heading + 1), std::string::npos) << group;
+            }
+            line = text.find("\n  " + option.names, heading);
+            ASSERT_NE(line, std::string::npos) << command.name << " " << option.names;
+            EXPECT_EQ(text.substr(heading + 2, line - heading - 2).find("\n\n"), std::string::npos)
+                << command.name << " " << option.names << " is not under " << group;
+        }
+    }
+}
+
+TEST(CommandLine, HelpIsAtMostAHundredColumnsWide) {
+    for (const Command& command : commands()) {
+        std::istringstream lines(help_text(command));
+        for (std::string line; std::getline(lines, line);) {
+            if (line.starts_with("usage:") || line == command.summary) continue;
+            EXPECT_LE(line.size(), 100u) << command.name << ": " << line;
+        }
+    }
+}
+
+TEST(CommandLine, JoinedListsHaveEachGroupInOnePiece) {
+    const auto row = [](const std::string& name) {
+        return Option{name, "", "", flag(), "", "Does something."};
+    };
+    const std::vector<Option> rows =
+        joined({grouped("a", {row("--one")}), grouped("b", {row("--two")}),
+                grouped("a", {row("--three")})});
+    ASSERT_EQ(rows.size(), 3u);
+    EXPECT_EQ(rows[0].names, "--one");
+    EXPECT_EQ(rows[1].names, "--three");
+    EXPECT_EQ(rows[2].names, "--two");
+    EXPECT_EQ(rows[1].group, "a");
+}
+
+TEST(CommandLine, TextsAreSentences) {
+    for (const Command& command : commands()) {
+        std::vector<Option> options = command.options;
+        options.insert(options.end(), common_options().begin(), common_options().end());
+        for (const Option& option : options) {
+            EXPECT_TRUE(option.text.ends_with('.')) << command.name << " " << option.names;
+        }
+        EXPECT_TRUE(command.summary.ends_with('.')) << command.name;
+    }
+}
+
     const std::string text = help_text(voxelize_command());
     for (const Option& option : voxelize_command().options) {
         EXPECT_NE(text.find("\n  " + option.names), std::string::npos) << option.names;

@@ -9,12 +9,14 @@
 namespace heddle::cli {
 
 std::vector<Option> device_options() {
-    return {
-        {"--device", "WHERE", "auto", one_of({"cpu", "cuda", "auto"}), "",
-         "the same bits from all; auto: cuda where there is one and it does what is asked"},
-        {"--device-memory", "BYTES", "(9/10 of what is free)", bytes(), "K, M, G",
-         "memory of the device that is kept to"},
-    };
+    return grouped(
+        "Memory and device",
+        {
+            {"--device", "WHERE", "auto", one_of({"cpu", "cuda", "auto"}), "",
+             "Where voxels are computed; the result is the same. auto: CUDA if a GPU is present and supports the options, else the CPU."},
+            {"--device-memory", "BYTES", "(9/10 of the free device memory)", bytes(),
+             "bytes; suffix K, M, G or T", "Limit of the memory used on the CUDA device."},
+        });
 }
 
 DeviceChoice

@@ -86,22 +86,32 @@ void run_export(const Arguments& arguments, Report& report, ProgressBar& bar) {
 
 Command export_command() {
     return {
-        "export",
-        "a volume for another renderer: grids and a scene that loads",
-        {
-            {"FILE", "", "", any_text(), "", "a .vdb that voxelize wrote", true},
-            {"--to", "FORMAT", "mitsuba3", one_of({"mitsuba3", "mitsuba06"}), "",
-             "mitsuba3: sigma_t.vol, S.vol (one SGGX of normals a voxel), albedo.vol, scene.xml; "
-             "mitsuba06: hgridvolume blocks of density and direction, scene.xml"},
-            {"-o, --output", "DIR", "", any_text(), "", "folder of the files", true},
-            {"--level", "N", "0", integer(0, 1000), "", "of detail; 0 = the finest"},
-            {"--pad", "F", "1", number(1, 1000), "of the box",
-             "of mitsuba3: grows it on each axis with emptiness"},
-            {"--stddev", "S", "0.3", number(0.01, 10), "",
-             "of mitsuba06: how far flakes stray from the fiber"},
-            {"--block-samples", "N", "64", integer(0, 512), "along an edge",
-             "of mitsuba06: samples of a block; 0 = one block holds all"},
-        },
+        "export", "Writes a volume for another renderer: grids and a scene that loads them.",
+        joined({
+            grouped(
+                "Input and output",
+                {
+                    {"FILE", "", "", any_text(), "", "A .vdb written by heddle.", true},
+                    {"-o, --output", "DIR", "", any_text(), "", "Folder for the files.", true},
+                    {"--to", "FORMAT", "mitsuba3", one_of({"mitsuba3", "mitsuba06"}), "",
+                     "mitsuba3: a dense grid of extinction, one SGGX of normals per voxel and albedo; mitsuba06: sparse hgridvolume blocks of density and direction. Both come with scene.xml."},
+                    {"--level", "N", "0", integer(0, 1000), "", "Level of detail; 0 = the finest."},
+                }),
+            grouped(
+                "Mitsuba 3",
+                {
+                    {"--pad", "F", "1", number(1, 1000), "",
+                     "Enlarges the exported box by this factor along each axis with empty voxels."},
+                }),
+            grouped(
+                "Mitsuba 0.6",
+                {
+                    {"--stddev", "S", "0.3", number(0.01, 10), "",
+                     "Standard deviation of the flakes around the fiber direction ('stddev' in scene.xml)."},
+                    {"--block-samples", "N", "64", integer(0, 512), "samples",
+                     "Samples along the edge of a block; 0 = a single block for everything."},
+                }),
+        }),
         run_export};
 }
 

@@ -32,10 +32,10 @@ bool take(std::string_view& text, char c) {
 } // namespace
 
 std::vector<Option> frame_options() {
-    return {
-        {"--frames", "A-B[:STEP]", "(FILE is one file)", any_text(), "",
-         "a sequence: FILE and OUT.vdb hold a number as %04d; give --voxel-size, or each frame's "
-         "voxels have their own"}};
+    return grouped(
+        "Input and output",
+        {{"--frames", "A-B[:STEP]", "(a single file)", any_text(), "",
+          "Voxelizes a sequence: FILE and OUT.vdb contain the frame number as %04d. Give --voxel-size, or the voxel size differs between frames."}});
 }
 
 std::vector<std::int64_t> parse_frames(const std::string& text) {

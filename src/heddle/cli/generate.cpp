@@ -82,25 +82,32 @@ void run_generate(const Arguments& arguments, Report& report, ProgressBar& bar) 
 
 Command generate_command() {
     return {
-        "generate",
-        "knit, weave, hair, grass or a brushed plate, from nothing",
-        {
-            {"KIND", "", "",
-             one_of({"knit", "rib", "cable", "plain", "twill", "satin", "hair", "curls", "brushed",
-                     "grass"}),
-             "", "what is made: cloth (.bcc), strands (.hair) or a mesh (.glb)", true},
-            {"-o, --output", "FILE", "", any_text(), "",
-             "where it goes: .bcc for cloth, .hair for hair and curls, .glb for the rest", true},
-            {"--counts", "NX,NY", "(a swatch)", numbers(2, 2, 1, 1e9), "",
-             "loops and rows, warp and weft yarns, strands and points, texels, or blades and "
-             "quads"},
-            {"--shape", "SHAPE", "flat", one_of({"flat", "folded", "hanging"}), "",
-             "how cloth lies"},
-            {"--radius", "R", "(the kind's)", positive(), "scene units",
-             "of a yarn or strand; half the width of a blade"},
-            {"--spacing", "S", "(the kind's)", positive(), "scene units",
-             "between yarns, roots or texels"},
-        },
+        "generate", "Makes a procedural test object: knit, weave, hair, grass or a brushed plate.",
+        joined({
+            grouped(
+                "Input and output",
+                {
+                    {"KIND", "", "",
+                     one_of({"knit", "rib", "cable", "plain", "twill", "satin", "hair", "curls",
+                             "brushed", "grass"}),
+                     "", "Kind of object; knit to satin are cloth.", true},
+                    {"-o, --output", "FILE", "", any_text(), "",
+                     "Output file: .bcc for cloth, .hair for hair and curls, .glb for brushed and grass.",
+                     true},
+                }),
+            grouped(
+                "Shape",
+                {
+                    {"--counts", "NX,NY", "(a small swatch)", numbers(2, 2, 1, 1e9), "",
+                     "Knits: loops per row, rows. Weaves: warp yarns, weft yarns. Hair and curls: strands, points per strand. Brushed: texels. Grass: blades, quads per blade."},
+                    {"--shape", "SHAPE", "flat", one_of({"flat", "folded", "hanging"}), "",
+                     "How the cloth lies; other kinds are flat only."},
+                    {"--radius", "R", "(depends on KIND)", positive(), "scene units",
+                     "Radius of a yarn or strand, or half the width of a grass blade."},
+                    {"--spacing", "S", "(depends on KIND)", positive(), "scene units",
+                     "Distance between neighbouring yarns, roots or texels."},
+                }),
+        }),
         run_generate};
 }
 

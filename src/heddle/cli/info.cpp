@@ -280,13 +280,12 @@ void run_info(const Arguments& arguments, Report& report, ProgressBar& bar) {
 } // namespace
 
 Command info_command() {
-    std::vector<Option> options{
-        {"FILE", "", "", any_text(), "", "anything that voxelize reads, or a .vdb of ours", true}};
-    for (const std::vector<Option>& more :
-         {resolution_options(), load_options(), model_options()}) {
-        options.insert(options.end(), more.begin(), more.end());
-    }
-    return {"info", "what a file holds, and what voxelizing it would take", options, run_info};
+    return {"info", "Shows what a file contains and what voxelizing it would need.",
+            joined({grouped("Input",
+                            {{"FILE", "", "", any_text(), "",
+                              "Any file that voxelize reads, or a .vdb written by heddle.", true}}),
+                    resolution_options(), load_options(), model_options()}),
+            run_info};
 }
 
 } // namespace heddle::cli

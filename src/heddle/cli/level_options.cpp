@@ -16,12 +16,14 @@ std::vector<std::string> method_names() {
 } // namespace
 
 std::vector<Option> level_options() {
-    return {
-        {"--levels", "N", "all", any_text(), "",
-         "levels of detail above the finest, at most; all: until two voxels an axis are left"},
-        {"--lod", "METHOD", "moments", one_of(method_names()), "",
-         "how lobes merge from level to level; moments and wasserstein keep up to K"},
-    };
+    return grouped(
+        "Levels of detail",
+        {
+            {"--levels", "N", "all", any_text(), "",
+             "Maximum number of levels above the finest; all: until at most two voxels per axis are left."},
+            {"--lod", "METHOD", "moments", one_of(method_names()), "",
+             "Method of merging lobes into the next level; moments and wasserstein keep up to --lobes per voxel."},
+        });
 }
 
 LodOptions lod_options(const Arguments& arguments) {

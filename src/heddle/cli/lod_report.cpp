@@ -225,21 +225,33 @@ void run_lod_report(const Arguments& arguments, Report& report, ProgressBar& bar
 
 Command lod_report_command() {
     return {
-        "lod-report",
-        "measures the levels of detail of a .vdb, method beside method",
-        {
-            {"FILE", "", "", any_text(), "", "a .vdb with levels", true},
-            {"--methods", "A,B,...", "moments,single,naive,random,interpolate", any_text(), "",
-             "levels are built by each of these; wasserstein too is known, and slow"},
-            {"--parents", "N", "2000", integer(1, 1000000), "a level",
-             "voxels that are measured against all finest ones below, at most"},
-            {"--part", "N", "(all; 50000 with wasserstein)", integer(1, std::int64_t{1} << 40),
-             "voxels of the finest level", "builds and measures on blocks chosen by --seed alone"},
-            {"--lobes", "K", "(as the file)", integer(1, 8), "",
-             "most orientation lobes in a voxel of the built levels"},
-            {"--plot", "OUT.png", "", any_text(), "",
-             "a picture of the errors by level, a line a method"},
-        },
+        "lod-report", "Measures the errors of the levels of detail of a .vdb, for several methods.",
+        joined({
+            grouped("Input and output",
+                    {
+                        {"FILE", "", "", any_text(), "", "A .vdb with levels of detail.", true},
+                        {"--plot", "OUT.png", "", any_text(), "",
+                         "Writes a plot of the errors by level, with one line per method."},
+                    }),
+            grouped(
+                "Methods",
+                {
+                    {"--methods", "A,B,...", "moments,single,naive,random,interpolate", any_text(),
+                     "",
+                     "Methods to build and measure levels with; wasserstein is available too, but slow."},
+                    {"--lobes", "K", "(as in the file)", integer(1, 8), "",
+                     "Maximum number of orientation lobes per voxel of the built levels."},
+                }),
+            grouped(
+                "Effort",
+                {
+                    {"--parents", "N", "2000", integer(1, 1000000), "voxels per level",
+                     "Maximum number of voxels that are compared with all finest voxels below them."},
+                    {"--part", "N", "(all; 50000 with wasserstein)",
+                     integer(1, std::int64_t{1} << 40), "voxels of the finest level",
+                     "Builds and measures only some blocks, chosen by --seed, with about this many voxels."},
+                }),
+        }),
         run_lod_report};
 }
 

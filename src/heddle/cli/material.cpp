@@ -211,16 +211,23 @@ Command material_command() {
     std::vector<std::string> names;
     for (const Key& key : keys()) names.push_back(key.name);
     return {
-        "material",
-        "the materials of a .vdb, to look at or to change",
-        {
-            {"FILE", "", "", any_text(), "", "a .vdb that voxelize wrote", true},
-            {"--set", "NAME.KEY=VALUE", "", any_text(), "",
-             "changes a material, no voxel; KEY: " + listed(names) +
-                 "; albedo takes R,G,B, linear; a number can stand for NAME",
-             false, true},
-            {"-o, --output", "OUT.vdb", "(FILE)", any_text(), "", "where the changed file goes"},
-        },
+        "material", "Lists or changes the materials of a .vdb.",
+        joined({
+            grouped("Input and output",
+                    {
+                        {"FILE", "", "", any_text(), "", "A .vdb written by heddle.", true},
+                        {"-o, --output", "OUT.vdb", "(FILE itself)", any_text(), "",
+                         "Output file of the changed volume; needs --set."},
+                    }),
+            grouped(
+                "Materials",
+                {
+                    {"--set", "NAME.KEY=VALUE", "", any_text(), "",
+                     "Changes a material; the voxels stay as they are. NAME: a material's name or number. KEY: " +
+                         listed(names) + ". albedo takes linear R,G,B.",
+                     false, true},
+                }),
+        }),
         run_material};
 }
 

@@ -129,6 +129,26 @@ std::string Option::key() const {
 
 const std::string& Arguments::text(const std::string& key) const {
     const auto it = given_.find(key);
+std::vector<Option> grouped(const std::string& group, std::vector<Option> rows) {
+    for (Option& row : rows) row.group = group;
+    return rows;
+}
+
+std::vector<Option> joined(const std::vector<std::vector<Option>>& lists) {
+    std::vector<Option> rows;
+    for (const std::vector<Option>& list : lists) rows.insert(rows.end(), list.begin(), list.end());
+    std::vector<std::string> groups;
+    const auto rank = [&groups](const Option& row) {
+        return std::find(groups.begin(), groups.end(), row.group);
+    };
+    for (const Option& row : rows) {
+        if (rank(row) == groups.end()) groups.push_back(row.group);
+    }
+    std::stable_sort(rows.begin(), rows.end(),
+                     [&](const Option& a, const Option& b) { return rank(a) < rank(b); });
+    return rows;
+}
+
     return it != given_.end() ? it->second.front() : preset_.at(key);
 }
 std::vector<std::string> Arguments::texts(const std::string& key) const {

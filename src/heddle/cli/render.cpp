@@ -109,31 +109,49 @@ void run_render(const Arguments& arguments, Report& report, ProgressBar& bar) {
 
 Command render_command() {
     return {
-        "render",
-        "a picture of a scene file or a .vdb by path tracing",
-        {
-            {"FILE", "", "", any_text(), "", "a scene in .toml, or a .vdb that is framed and lit",
-             true},
-            {"-o, --output", "OUT.exr|OUT.png", "", any_text(), "", "where the picture goes", true},
-            {"--geometry", "", "", flag(), "",
-             "traces the geometry of objects that have some, not their volumes"},
-            {"--level", "N", "(by the footprint of each ray)", integer(0, 1000), "",
-             "of detail everywhere; 0 = the finest"},
-            {"--level-offset", "X", "0", number(-8, 8), "levels",
-             "added to what the footprint asks for; below 0 is finer"},
-            {"--transport", "MODEL", "(the scene's, or auto)", one_of(transport_names()), "",
-             "how voxels along a ray are put together"},
-            {"--samples", "N", "(the scene's, or 64)", integer(1, 1'000'000'000), "per pixel",
-             "stops there"},
-            {"--time", "T", "", positive(), "seconds", "stops after the pass that ends then"},
-            {"--noise", "E", "", positive(), "of the mean luminance",
-             "stops when the pixels' root mean square error is below it"},
-            {"--size", "WxH", "(the scene's, or 512x512)", numbers(2, 2, 1, 65536, 'x'), "pixels",
-             "of the picture"},
-            {"--exposure", "E", "0", number(-kInf, kInf), "stops", "of a .png: times 2^E"},
-            {"--resume", "", "", flag(), "",
-             "goes on from OUTPUT.checkpoint, which a stopped render leaves"},
-        },
+        "render", "Path traces a scene file or a .vdb.",
+        joined({
+            grouped(
+                "Input and output",
+                {
+                    {"FILE", "", "", any_text(), "",
+                     "A .toml scene, or a .vdb, for which a camera and lights are chosen.", true},
+                    {"-o, --output", "OUT.exr|OUT.png", "", any_text(), "", "Output picture.",
+                     true},
+                    {"--resume", "", "", flag(), "",
+                     "Continues from OUTPUT.checkpoint, which a stopped render leaves behind."},
+                }),
+            grouped("Picture",
+                    {
+                        {"--size", "WxH", "(from the scene, or 512x512)",
+                         numbers(2, 2, 1, 65536, 'x'), "pixels", "Size of the picture."},
+                        {"--exposure", "E", "0", number(-kInf, kInf), "stops",
+                         "Exposure of a .png: colours are multiplied by 2^E."},
+                    }),
+            grouped(
+                "When to stop",
+                {
+                    {"--samples", "N", "(from the scene, or 64; no limit with --time or --noise)",
+                     integer(1, 1'000'000'000), "per pixel", "Stops after this many samples."},
+                    {"--time", "T", "(no limit)", positive(), "seconds",
+                     "Stops at about this time, reading the scene included; at least one sample is taken."},
+                    {"--noise", "E", "(no limit)", positive(), "luminance",
+                     "Stops when the root mean square over pixels of the standard error of the luminance is below E."},
+                }),
+            grouped(
+                "Volumes",
+                {
+                    {"--transport", "MODEL", "(from the scene, or auto)", one_of(transport_names()),
+                     "",
+                     "How the opacities of voxels along a ray combine; auto: footprint for fibers whose volume stores footprints, else product."},
+                    {"--level", "N", "(from the footprint of each ray)", integer(0, 1000), "",
+                     "Uses one level of detail for all rays; 0 = the finest."},
+                    {"--level-offset", "X", "0", number(-8, 8), "levels",
+                     "Is added to the level chosen from the ray's footprint; negative values are finer."},
+                    {"--geometry", "", "", flag(), "",
+                     "Traces the geometry of objects that have one, instead of their volumes."},
+                }),
+        }),
         run_render};
 }
 

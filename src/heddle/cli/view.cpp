@@ -21,6 +21,7 @@
 #include <numbers>
 #include <sstream>
 
+#include <utility>
 namespace heddle::cli {
 namespace {
 
@@ -155,7 +156,7 @@ void run_view(const Arguments& arguments, Report& report, ProgressBar& bar) {
 
 Command view_command() {
     return {"view",
-            "a window on yarns as shaded slices and on volumes, by OpenGL; or pictures of them",
+            "Shows yarns as shaded slices, and volumes, in an OpenGL window or as pictures.",
             view_options(), run_view};
 }
 

@@ -8,13 +8,15 @@
 namespace heddle::cli {
 
 std::vector<Option> resolution_options() {
-    return {
-        {"--voxel-size", "X[,Y,Z]", "(from --voxels)",
-         numbers(1, 3, 0.0, std::numeric_limits<double>::infinity(), ',', true), "scene units",
-         "edge of a voxel; three numbers where voxels are not cubes"},
-        {"--voxels", "N", "512", integer(1, std::int64_t{1} << 30), "voxels",
-         "along the longest axis"},
-    };
+    return grouped(
+        "Resolution",
+        {
+            {"--voxels", "N", "512", integer(1, std::int64_t{1} << 30), "voxels",
+             "Number of voxels along the longest axis."},
+            {"--voxel-size", "X[,Y,Z]", "(from --voxels)",
+             numbers(1, 3, 0.0, std::numeric_limits<double>::infinity(), ',', true), "scene units",
+             "Edge length of a voxel; three numbers for voxels that are not cubes."},
+        });
 }
 
 VoxelizeOptions resolution_from(const Arguments& arguments) {

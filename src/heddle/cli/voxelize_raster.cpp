@@ -40,17 +40,18 @@ void report_counts(Report& report, const raster::RasterCounts& counts) {
 } // namespace
 
 std::vector<Option> raster_options() {
-    return {
-        {"--backend", "NAME", "sample", one_of({"sample", "raster"}), "",
-         "sample: fibers, on the CPU; raster: slices of yarns and hair, drawn by OpenGL"},
-        {"--composition", "POLICY", "accumulate", one_of(composition_names()), "",
-         "of --backend raster: accumulate: the fibers' own coverage; else a voxel's density is the "
-         "last, average or largest alpha of the slices in it"},
-        {"--slice-spacing", "S", "(half of the yarn's radius)", positive(), "scene units",
-         "of --backend raster: between slices, at most"},
-        {"--raster-path", "PATH", "auto", one_of(path_names()), "",
-         "of --backend raster: fragment or compute shaders, to the same voxels; auto: the faster"},
-    };
+    return grouped(
+        "OpenGL backend",
+        {
+            {"--backend", "NAME", "sample", one_of({"sample", "raster"}), "",
+             "sample: fibers and triangles, on the CPU or a CUDA device; raster: slices of yarns and hair, drawn by OpenGL."},
+            {"--composition", "POLICY", "accumulate", one_of(composition_names()), "",
+             "accumulate: the coverage of the fibers themselves; last, average, max: one density per voxel from the alpha of its slices. Needs --backend raster."},
+            {"--slice-spacing", "S", "(half of the yarn radius)", positive(), "scene units",
+             "Maximum distance between slices. Needs --backend raster."},
+            {"--raster-path", "PATH", "auto", one_of(path_names()), "",
+             "Kind of shader that draws; the voxels are the same. auto: the faster one. Needs --backend raster."},
+        });
 }
 
 raster::RasterOptions raster_options_from(const Arguments& arguments) {

@@ -77,13 +77,17 @@ hold(std::unique_ptr<VoxelSource> source, const Arguments& arguments, Progress& 
 } // namespace
 
 std::vector<Option> volume_options() {
-    return {
-        {"--orientation", "FILE", "(found by name)", any_text(), "",
-         "of a .vol: its directions; of a dictionary: one of their files; none: without"},
-        {"--density-scale", "S", "(density 1 covers 86 % of a voxel's face)", positive(),
-         "per scene unit", "of a .vol: extinction at density 1, the scene's 'scale'"},
-        {"--albedo", "R[,G,B]", "0.8", numbers(1, 3, 0.0, 1.0), "linear", "of a .vol's fibers"},
-    };
+    return grouped(
+        "Mitsuba volumes (.vol)",
+        {
+            {"--orientation", "FILE", "(found by its name)", any_text(), "",
+             "Orientation file of a .vol volume, or any one orientation file of a dictionary; 'none' ignores orientation."},
+            {"--density-scale", "S", "(2 / voxel size: density 1 covers 86 % of a voxel's face)",
+             positive(), "per scene unit",
+             "Extinction at density 1, which is 'scale' in a Mitsuba scene."},
+            {"--albedo", "R[,G,B]", "0.8", numbers(1, 3, 0.0, 1.0), "linear",
+             "Albedo of the fibers."},
+        });
 }
 
 bool is_volume(const Arguments& arguments) {
