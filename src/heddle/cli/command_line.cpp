@@ -41,7 +41,8 @@ refuse_extra(const Command& command, const std::vector<Option>& options, const s
 
 void check_values(const Option& option, const std::vector<std::string>& values) {
     if (values.size() > 1 && !option.repeats) {
-        throw UsageError(str(spoken_name(option), " is given ", values.size(), " times"));
+        throw UsageError(
+            str(spoken_name(option), " is given ", values.size(), " times; give it once"));
     }
     for (const std::string& value : values) {
         const std::string problem = option.values.problem(value);
@@ -147,7 +148,6 @@ std::string markdown_table(const std::string& title,
     return text + "\n";
 }
 
-} // namespace
 constexpr std::size_t kHelpWidth = 100; // columns
 
 /// `pieces` in lines of at most kHelpWidth, the first of which begins at column `indent`.
@@ -176,6 +176,7 @@ std::string right_column(const Option& option, std::size_t indent) {
     return wrap(pieces, indent);
 }
 
+} // namespace
 
 const std::vector<Option>& common_options() {
     static const std::vector<Option> options = grouped(
@@ -230,9 +231,9 @@ std::string help_text(const Command& command) {
     std::string text = str("usage: ", usage, " [options]\n", command.summary, "\n");
     std::string group;
     for (const Option& option : options) {
-        const std::string left = left_column(option);
         if (option.group != group) text += str("\n", option.group, ":\n");
         group = option.group;
+        const std::string left = left_column(option);
         text += str("  ", left, std::string(width + 2 - left.size(), ' '),
                     right_column(option, width + 4), "\n");
     }

@@ -25,7 +25,7 @@ choose_device(const Arguments& arguments, const VoxelizeOptions& options, Report
     const std::string& where = arguments.text("device");
     const bool memory = arguments.given("device-memory");
     if (where == "cpu") {
-        if (memory) throw UsageError("--device-memory is of no use with --device cpu");
+        if (memory) throw UsageError("--device-memory cannot be used with --device cpu");
         return choice;
     }
     const gpu::Device device = gpu::find_device();
@@ -33,7 +33,7 @@ choose_device(const Arguments& arguments, const VoxelizeOptions& options, Report
     if (where == "cuda") {
         if (device.name.empty()) {
             throw Error(ErrorCode::Device, str("--device cuda: ", device.why),
-                        "use --device cpu: the same bits");
+                        "use --device cpu, which gives the same voxels");
         }
         if (!cannot.empty()) {
             throw Error(ErrorCode::Unsupported, str("--device cuda: ", cannot), "use --device cpu");

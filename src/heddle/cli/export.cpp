@@ -17,7 +17,7 @@ namespace {
 FlakeField read_field(const std::string& path, int level) {
     const std::unique_ptr<VoxelGrid> grid = read_vdb(path, level);
     if (grid->info().voxel_count == 0) {
-        throw Error(ErrorCode::BadFile, "holds no voxels", "export a volume that has some",
+        throw Error(ErrorCode::BadFile, "holds no voxels", "export a volume that has voxels",
                     {.path = path});
     }
     std::vector<Vec3f> albedo;
@@ -35,21 +35,22 @@ void export_mitsuba06(const Arguments& arguments, Report& report, ProgressBar& b
         .block_samples = static_cast<std::int32_t>(arguments.integer("block-samples"))};
     if (options.block_samples == 1) {
         throw UsageError(
-            "--block-samples: neighbours share a layer, so 2 are the least; 0 = one block");
+            "--block-samples: neighbouring blocks share a layer of samples, so the minimum is 2; 0 = a single block");
     }
     Mitsuba06Files files;
     write_output([&] { files = write_mitsuba06(*grid, folder, options, bar); });
     bar.finish();
     if (files.no_fiber > 0) {
-        report.note(str(files.no_fiber, " voxels are of surfaces: they have no direction here"));
+        report.note(
+            str(files.no_fiber, " voxels hold only surfaces and are written without a direction"));
     }
     report.text("output", folder);
     report.add("resolution", "resolution", {files.samples.x, files.samples.y, files.samples.z},
                str(files.samples.x, " x ", files.samples.y, " x ", files.samples.z, " samples"));
     const Vec3i n = files.block_samples;
     report.count("blocks", files.blocks,
-                 str("of ", n.x, " x ", n.y, " x ", n.z, " samples, of ", files.cells.x, " x ",
-                     files.cells.y, " x ", files.cells.z));
+                 str("of ", n.x, " x ", n.y, " x ", n.z, " samples, in a grid of ", files.cells.x,
+                     " x ", files.cells.y, " x ", files.cells.z, " blocks"));
     report.data("cells", {files.cells.x, files.cells.y, files.cells.z});
     report.number("scale", files.scale, "extinction per scene unit at density 1");
     report.bytes("files", files.bytes);
@@ -57,12 +58,13 @@ void export_mitsuba06(const Arguments& arguments, Report& report, ProgressBar& b
 
 void run_export(const Arguments& arguments, Report& report, ProgressBar& bar) {
     if (arguments.text("to") == "mitsuba06") {
-        if (arguments.given("pad")) throw UsageError("--pad is of no use here: blocks are sparse");
+        if (arguments.given("pad"))
+            throw UsageError("--pad cannot be used with --to mitsuba06, whose blocks are sparse");
         return export_mitsuba06(arguments, report, bar);
     }
     for (const char* option : {"stddev", "block-samples"}) {
         if (!arguments.given(option)) continue;
-        throw UsageError(str("--", option, " is of no use here: it needs --to mitsuba06"));
+        throw UsageError(str("--", option, " needs --to mitsuba06"));
     }
     const auto start = std::chrono::steady_clock::now();
     const std::string& folder = arguments.text("output");
@@ -75,7 +77,7 @@ void run_export(const Arguments& arguments, Report& report, ProgressBar& bar) {
     bar.finish();
     report.text("output", folder);
     report.add("resolution", "resolution", {box.size.x, box.size.y, box.size.z},
-               str(box.size.x, " x ", box.size.y, " x ", box.size.z, " voxels, dense"));
+               str(box.size.x, " x ", box.size.y, " x ", box.size.z, " voxels in a dense grid"));
     report.bytes("files", box.bytes);
     const std::chrono::duration<double> total = std::chrono::steady_clock::now() - start;
     report.seconds("total", total.count());

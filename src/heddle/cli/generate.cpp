@@ -34,7 +34,7 @@ GenerateOptions generate_options(const Arguments& arguments) {
         const std::vector<std::string> counts = split(arguments.text("counts"), ',');
         const std::optional<std::int64_t> nx = parse_integer(counts[0]);
         const std::optional<std::int64_t> ny = parse_integer(counts[1]);
-        if (!nx || !ny) throw UsageError("--counts: both must be whole numbers");
+        if (!nx || !ny) throw UsageError("--counts: both values must be whole numbers");
         options.nx = *nx;
         options.ny = *ny;
     }
@@ -59,8 +59,8 @@ void run_generate(const Arguments& arguments, Report& report, ProgressBar& bar) 
     const std::int64_t bytes = predict_bytes(options);
     if (const std::int64_t free = available_bytes(); free > 0 && bytes > free) {
         throw Error(ErrorCode::OutOfMemory,
-                    str("generate: ", show_bytes(static_cast<double>(bytes)), " needed, ",
-                        show_bytes(static_cast<double>(free)), " free"),
+                    str("generate: ", show_bytes(static_cast<double>(bytes)), " are needed and ",
+                        show_bytes(static_cast<double>(free)), " are free"),
                     "give smaller --counts");
     }
     bar.begin("generate", "nodes", predict_nodes(options));

@@ -48,7 +48,7 @@ YarnOptions yarn_options(const Arguments& arguments) {
 
 void refuse_without(const Arguments& arguments, const char* option, bool usable, const char* need) {
     if (arguments.given(option) && !usable) {
-        throw UsageError(str("--", option, " is of no use here: ", need));
+        throw UsageError(str("--", option, " needs ", need));
     }
 }
 
@@ -99,11 +99,11 @@ Geometry load_geometry(const std::string& path, const Arguments& arguments) {
 void apply_model(Geometry& geometry, const Arguments& arguments) {
     const bool curves = !geometry.curves.empty();
     for (const char* option : {"yarn", "fiber-radius", "yarn-radius"}) {
-        refuse_without(arguments, option, curves, "the file holds no curves");
+        refuse_without(arguments, option, curves, "curves, but the file holds none");
     }
-    refuse_without(arguments, "fibers", arguments.given("yarn"), "it needs --yarn");
+    refuse_without(arguments, "fibers", arguments.given("yarn"), "--yarn");
     for (const char* option : {"height-scale", "height-offset"}) {
-        refuse_without(arguments, option, arguments.given("height-map"), "it needs --height-map");
+        refuse_without(arguments, option, arguments.given("height-map"), "--height-map");
     }
     apply_yarn(geometry, yarn_options(arguments));
     if (arguments.given("height-map")) {
@@ -118,7 +118,7 @@ void check_output(const std::string& path, const std::string& suffix, const std:
     std::error_code ignored;
     // OutputFile would write to a device, but a .vdb needs seeks: said before the work starts
     if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
-        throw Error(ErrorCode::CannotWrite, "it is a folder or a device, not a file",
+        throw Error(ErrorCode::CannotWrite, "this is a folder or a device, not a file",
                     "write to another place", {.path = path});
     }
     if (suffix_of(path) != suffix) {

@@ -44,7 +44,8 @@ void run_lod(const Arguments& arguments, Report& report, ProgressBar& bar) {
     const std::vector<VoxelGridInfo> infos = read_infos(path);
     check_memory(infos, path);
     if (arguments.given("exact") && !infos.front().fields.masks) {
-        throw Error(ErrorCode::BadFile, "holds no columns and sums, so levels would be approximate",
+        throw Error(ErrorCode::BadFile,
+                    "holds no columns and sums, so its levels would be approximate",
                     "voxelize it with --keep-masks, or leave out --exact", {.path = path});
     }
     VoxelLevels levels = read_levels(path);
@@ -55,7 +56,8 @@ void run_lod(const Arguments& arguments, Report& report, ProgressBar& bar) {
     report.text("output", output);
     report_levels(report, levels);
     if (levels.front()->info().approximate) {
-        report.note("levels are approximate: the file holds no columns and sums (--keep-masks)");
+        report.note(
+            "the levels are approximate because the file holds no columns and sums (voxelize --keep-masks)");
     }
     for (const auto& [stage, seconds] : bar.stages()) report.seconds(stage, seconds);
     const std::chrono::duration<double> total = std::chrono::steady_clock::now() - start;

@@ -40,8 +40,9 @@ std::string numbers_problem(const std::string& text, const Values& v) {
     const std::vector<std::string> pieces = split(text, v.separator);
     const int n = static_cast<int>(pieces.size());
     if (n != v.least && n != v.most) {
-        return str("'", text, "' has ", n, n == 1 ? " number" : " numbers", "; it takes ", v.least,
-                   v.most > v.least ? str(" or ", v.most) : "", ", joined by '", v.separator, "'");
+        return str("'", text, "' has ", n, n == 1 ? " number" : " numbers", "; expected ", v.least,
+                   v.most > v.least ? str(" or ", v.most) : "", ", separated by '", v.separator,
+                   "'");
     }
     for (const std::string& piece : pieces) {
         const std::optional<double> x = parse_number(piece);
@@ -83,8 +84,9 @@ std::string Values::problem(const std::string& text) const {
     }
     case ValueKind::Numbers: return numbers_problem(text, *this);
     case ValueKind::Bytes:
-        return parse_bytes(text) ? "" : str("'", text, "' is not a size; write 4G or 1500M");
-    case ValueKind::Text: return text.empty() ? "it is empty" : "";
+        return parse_bytes(text) ? ""
+                                 : str("'", text, "' is not a size; write for example 4G or 1500M");
+    case ValueKind::Text: return text.empty() ? "the value is empty" : "";
     case ValueKind::Flag: return {};
     }
     return {};
@@ -127,8 +129,6 @@ std::string Option::key() const {
     return at == std::string::npos ? names : names.substr(at + 2);
 }
 
-const std::string& Arguments::text(const std::string& key) const {
-    const auto it = given_.find(key);
 std::vector<Option> grouped(const std::string& group, std::vector<Option> rows) {
     for (Option& row : rows) row.group = group;
     return rows;
@@ -149,6 +149,8 @@ std::vector<Option> joined(const std::vector<std::vector<Option>>& lists) {
     return rows;
 }
 
+const std::string& Arguments::text(const std::string& key) const {
+    const auto it = given_.find(key);
     return it != given_.end() ? it->second.front() : preset_.at(key);
 }
 std::vector<std::string> Arguments::texts(const std::string& key) const {

@@ -4,6 +4,7 @@
 #include <heddle/cli/load.h>
 #include <heddle/cli/progress_bar.h>
 #include <heddle/cli/report.h>
+#include <heddle/cli/text.h>
 #include <heddle/io/input_file.h>
 #include <heddle/stage/render_job.h>
 #include <heddle/stage/scene_hash.h>
@@ -26,8 +27,8 @@ Scene asked_scene(const Arguments& arguments) {
         object.instances.resize(1);
         scene.objects.push_back(object);
         if (arguments.given("geometry")) {
-            throw UsageError("--geometry is of no use here: a .vdb has voxels alone; name its "
-                             "geometry in a scene");
+            throw UsageError(
+                "--geometry cannot be used with a .vdb, which holds only voxels; name the geometry in a scene");
         }
     } else {
         scene = read_scene(path);
@@ -35,7 +36,7 @@ Scene asked_scene(const Arguments& arguments) {
     if (arguments.given("size")) {
         const std::vector<double> size = arguments.numbers("size", 'x');
         if (size[0] * size[1] > 0x1p28) { // as a scene's
-            throw UsageError("--size: more than 2^28 pixels; make the picture smaller");
+            throw UsageError("--size: the picture has more than 2^28 pixels; make it smaller");
         }
         scene.width = static_cast<std::int32_t>(size[0]);
         scene.height = static_cast<std::int32_t>(size[1]);
@@ -91,12 +92,13 @@ void run_render(const Arguments& arguments, Report& report, ProgressBar& bar) {
     report.add("size", "size", {scene.width, scene.height},
                str(scene.width, " x ", scene.height, " pixels"));
     report.count("samples", outcome.samples, "per pixel");
-    if (job.resume) report.count("resumed from", outcome.resumed_from, "per pixel");
-    report.number("noise", outcome.noise);
+    if (job.resume) report.count("resumed from", outcome.resumed_from, "samples per pixel");
+    report.number("noise", outcome.noise, "RMS standard error of the luminance");
     const double paths =
         static_cast<double>(outcome.samples - outcome.resumed_from) * scene.width * scene.height;
     report.seconds("first picture", outcome.first_picture_seconds);
-    report.seconds("levels", outcome.load_seconds);
+    report.add("levels_seconds", "reading levels", outcome.load_seconds,
+               show_seconds(outcome.load_seconds));
     report.seconds("render", outcome.render_seconds);
     if (outcome.render_seconds > 0.0) {
         report.number("rate", paths / outcome.render_seconds, "paths/s");

@@ -92,10 +92,9 @@ void run_slice(const Arguments& arguments, Report& report, ProgressBar& bar) {
         report.text("yarn-file", arguments.text("yarn-file"));
     }
     report.count("fibers", made.yarn.slice_fibers);
-    report.number("twist", static_cast<double>(made.yarn.twist),
-                  "radians per unit length of the yarn model");
+    report.number("twist", static_cast<double>(made.yarn.twist), "radians per yarn model unit");
     report.number("yarn radius", static_cast<double>(made.yarn.model_radius),
-                  "of the yarn model: half the image's side");
+                  "yarn model units, half of the image's side");
 }
 
 } // namespace

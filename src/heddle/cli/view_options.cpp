@@ -98,22 +98,23 @@ void check_view(const Arguments& arguments) {
     const bool volume = is_volume_file(arguments) || arguments.given("volume");
     const std::string color = arguments.text("color");
     if (headless && !arguments.given("output")) {
-        throw UsageError("--headless needs a folder for its pictures: -o DIR");
+        throw UsageError("--headless needs a folder for the pictures; give -o DIR");
     }
     for (const char* option : {"frames", "scene"}) {
         if (headless || !arguments.given(option)) continue;
-        throw UsageError(str("--", option, " is of no use here: it needs --headless"));
+        throw UsageError(str("--", option, " needs --headless"));
     }
     if (arguments.given("volume") && is_volume_file(arguments)) {
-        throw UsageError("--volume is of no use here: it needs curves to be shown with");
+        throw UsageError(
+            "--volume cannot be used with a .vdb as FILE; it shows voxels beside curves");
     }
     if (!volume && (arguments.given("scene") || shows_voxels(arguments) || color == "grid")) {
-        throw UsageError("no voxels are there to be shown: open a .vdb, or give --volume X.vdb");
+        throw UsageError("there are no voxels to show; open a .vdb, or give --volume X.vdb");
     }
     const std::vector<std::string>& colors =
         shows_voxels(arguments) ? voxel_colors() : slice_colors();
     if (std::find(colors.begin(), colors.end(), color) == colors.end()) {
-        throw UsageError(str("--color ", color, " is none of ",
+        throw UsageError(str("--color ", color, " is not available for ",
                              shows_voxels(arguments) ? "voxels" : "slices",
                              "; see heddle view --help"));
     }

@@ -26,7 +26,7 @@ VoxelizeOptions resolution_from(const Arguments& arguments) {
     options.writer_bytes_per_leaf = kVdbWriterBytesPerLeaf;
     if (!arguments.given("voxel-size")) return options;
     if (arguments.given("voxels")) {
-        throw UsageError("--voxel-size and --voxels say the same thing twice; give one of them");
+        throw UsageError("--voxel-size and --voxels both set the resolution; give one of them");
     }
     const std::vector<double> size = arguments.numbers("voxel-size");
     const bool cube = size.size() == 1;
@@ -37,7 +37,7 @@ VoxelizeOptions resolution_from(const Arguments& arguments) {
 std::int64_t report_work(Report& report, const VoxelizePlan& plan) {
     report.count("primitives", plan.primitives, "spans and triangles");
     report.add("steps", "steps", plan.steps,
-               str(show_count(plan.steps), " subvoxel edges of fiber length"));
+               str(show_count(plan.steps), " (fiber length in subvoxel edges)"));
     report.count("predicted voxels", plan.voxels);
     report.count("predicted touched subvoxels", plan.touched_subvoxels);
     std::vector<LevelSize> levels{{plan.leaves, plan.voxels, plan.lobes}};

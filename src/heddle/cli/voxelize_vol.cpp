@@ -29,7 +29,7 @@ void refuse_other_options(const Arguments& arguments) {
     for (const std::string& key : useless) {
         if (!arguments.given(key)) continue;
         throw UsageError(
-            str("--", key, " is of no use here: the samples of a .vol are the voxels"));
+            str("--", key, " cannot be used with a .vol, whose samples become the voxels"));
     }
 }
 
@@ -97,7 +97,7 @@ bool is_volume(const Arguments& arguments) {
 void refuse_volume_options(const Arguments& arguments) {
     for (const Option& row : volume_options()) {
         if (!arguments.given(row.key())) continue;
-        throw UsageError(str("--", row.key(), " is of no use here: it says how a .vol is read"));
+        throw UsageError(str("--", row.key(), " applies only to .vol files"));
     }
 }
 
