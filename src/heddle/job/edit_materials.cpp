@@ -29,7 +29,7 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
     if (!near.empty()) return str("; did you mean '", near, "'?");
     std::string listed;
     for (const std::string& name : names) listed += str(listed.empty() ? "" : ", ", name);
-    return str("; there are: ", listed);
+    return str("; the file has: ", listed);
 }
 
 /// The material of that name, else of that number.
@@ -38,7 +38,7 @@ std::size_t find_material(const std::vector<Material>& materials, const std::str
     const auto at = std::find_if(materials.begin(), materials.end(), named);
     if (at != materials.end()) {
         if (std::find_if(at + 1, materials.end(), named) != materials.end()) {
-            refuse(str("more than one material is called '", word, "'; give its number"));
+            refuse(str("more than one material is named '", word, "'; give its number"));
         }
         return static_cast<std::size_t>(at - materials.begin());
     }
@@ -50,6 +50,7 @@ std::size_t find_material(const std::vector<Material>& materials, const std::str
     for (std::size_t i = 0; i < materials.size(); ++i) {
         names.push_back(name_or_number(materials, i));
     }
+    if (names.empty()) refuse("the file has no materials");
     refuse(str("no material '", word, "'", suggestion(word, names)));
 }
 
@@ -78,7 +79,7 @@ public:
             if (after_[i].name == before_[i].name) continue;
             for (std::size_t j = 0; j < after_.size(); ++j) {
                 if (i != j && after_[i].name == after_[j].name) {
-                    refuse(str("two materials would be called '", after_[i].name, "'"));
+                    refuse(str("two materials would be named '", after_[i].name, "'"));
                 }
             }
         }
@@ -116,9 +117,9 @@ std::vector<std::string> missing_tangents(const VoxelGridInfo& info,
     for (std::size_t i = 0; i < materials.size() && !info.fields.tangents; ++i) {
         const bool surface = materials[i].kind == MaterialKind::Surface;
         if (!surface || materials[i].anisotropy == info.materials[i].anisotropy) continue;
-        notes.push_back(str("the file has no tangents, which the anisotropy of '",
-                            name_or_number(materials, i),
-                            "' needs: give its mesh anisotropy and voxelize again"));
+        notes.push_back(str(
+            "the anisotropy of '", name_or_number(materials, i),
+            "' needs tangents, which the file does not store; set anisotropy in the mesh's material and voxelize again"));
     }
     return notes;
 }
@@ -143,7 +144,7 @@ MaterialReport edit_materials_of_file(const std::string& path,
                                       Progress& progress) {
     const bool edits = !options.set.empty();
     if (options.output) {
-        if (!edits) throw OptionError("`output` is of no use without `set`");
+        if (!edits) throw OptionError("`output` needs `set`");
         check_output(*options.output, ".vdb");
     }
     progress.begin("read", "files", 1);

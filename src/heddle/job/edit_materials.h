@@ -12,13 +12,13 @@ namespace heddle::job {
 /// What becomes of one material of a .vdb. What else a material has went into the voxels for good.
 struct MaterialEdit {
     std::string material; ///< its name, else its number from 0; as they are before all edits
-    std::optional<std::string> name;
-    std::optional<Vec3f> albedo;    ///< linear RGB in [0, 1]
-    std::optional<float> roughness; ///< in [0, 1], as the next two
-    std::optional<float> metalness;
-    std::optional<float> anisotropy;
-    std::optional<float> anisotropy_rotation; ///< radians
-    std::optional<float> alpha;               ///< in [0, 1]
+    std::optional<std::string> name{};
+    std::optional<Vec3f> albedo{};    ///< linear RGB in [0, 1]
+    std::optional<float> roughness{}; ///< in [0, 1], as the next two
+    std::optional<float> metalness{};
+    std::optional<float> anisotropy{};
+    std::optional<float> anisotropy_rotation{}; ///< radians
+    std::optional<float> alpha{};               ///< in [0, 1]
 };
 
 /// Names of the fields of MaterialEdit that change something, in their order.

@@ -1,7 +1,7 @@
 #include <heddle/job/generate_geometry.h>
 
+#include <heddle/base/format_number.h>
 #include <heddle/base/memory.h>
-#include <heddle/base/show_number.h>
 #include <heddle/io/curve/curve_files.h>
 #include <heddle/io/mesh/write_glb.h>
 #include <heddle/job/output_place.h>
@@ -14,17 +14,20 @@ void check_memory(const GenerateOptions& options) {
     const std::int64_t free = available_bytes();
     if (free <= 0 || bytes <= free) return;
     throw Error(ErrorCode::OutOfMemory,
-                str("generate: ", show_bytes(static_cast<double>(bytes)), " needed, ",
-                    show_bytes(static_cast<double>(free)), " free"),
+                str("generate: ", format_bytes(static_cast<double>(bytes)), " are needed and ",
+                    format_bytes(static_cast<double>(free)), " are free"),
                 "give smaller `counts`");
 }
 
 void write_geometry(const Geometry& geometry, GenerateKind kind, const std::string& path) {
     const std::string suffix = suffix_for(kind);
     if (suffix == ".glb") return write_glb(geometry, path);
-    const CurveSet& set = geometry.curves.front();
-    if (suffix == ".hair") return write_hair(set, path);
-    write_bcc(set, path);
+    if (suffix == ".bcc") return write_bcc(geometry.curves, path);
+    if (geometry.curves.size() != 1) {
+        throw Error(ErrorCode::Internal, str("generate: ", geometry.curves.size(),
+                                             " sets of strands, a .hair file takes one"));
+    }
+    write_hair(geometry.curves.front(), path);
 }
 
 } // namespace

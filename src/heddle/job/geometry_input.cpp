@@ -4,6 +4,7 @@
 #include <heddle/io/geometry/read_geometry.h>
 #include <heddle/io/image/image.h>
 #include <heddle/io/mesh/read_mesh.h>
+#include <heddle/io/yarn/yarn_file.h>
 #include <heddle/job/option_error.h>
 
 #include <utility>
@@ -12,7 +13,7 @@ namespace heddle::job {
 namespace {
 
 void refuse(bool useless, const char* option, const char* need) {
-    if (useless) throw OptionError(str("`", option, "` is of no use here: ", need));
+    if (useless) throw OptionError(str("`", option, "` needs ", need));
 }
 
 void check_positive(const std::optional<double>& value, const char* option) {
@@ -24,8 +25,7 @@ void check_positive(const std::optional<double>& value, const char* option) {
 Geometry read_asked(GeometryInput& input) {
     const GeometryOptions& options = input.options;
     if (input.geometry) {
-        refuse(options.repeat_x != 1 || options.repeat_y != 1, "repeat",
-               "it says how a file is read");
+        refuse(options.repeat_x != 1 || options.repeat_y != 1, "repeat", "a file");
         return std::move(*input.geometry);
     }
     return read_geometry(input.path,
@@ -36,12 +36,16 @@ Geometry read_asked(GeometryInput& input) {
 
 } // namespace
 
+std::vector<std::string> yarn_preset_names() {
+    return list_presets();
+}
+
 void check_geometry_options(const GeometryOptions& options) {
     check_positive(options.yarn_radius, "yarn_radius");
     check_positive(options.fiber_radius, "fiber_radius");
-    refuse(options.fibers && !options.yarn, "fibers", "it needs `yarn`");
-    refuse(options.height_scale && !options.height_map, "height_scale", "it needs `height_map`");
-    refuse(options.height_offset && !options.height_map, "height_offset", "it needs `height_map`");
+    refuse(options.fibers && !options.yarn, "fibers", "`yarn`");
+    refuse(options.height_scale && !options.height_map, "height_scale", "`height_map`");
+    refuse(options.height_offset && !options.height_map, "height_offset", "`height_map`");
 }
 
 Geometry load_geometry(GeometryInput input) {
@@ -49,9 +53,9 @@ Geometry load_geometry(GeometryInput input) {
     check_geometry_options(options);
     Geometry geometry = read_asked(input);
     const bool curves = !geometry.curves.empty();
-    refuse(options.yarn && !curves, "yarn", "the file holds no curves");
-    refuse(options.fiber_radius && !curves, "fiber_radius", "the file holds no curves");
-    refuse(options.yarn_radius && !curves, "yarn_radius", "the file holds no curves");
+    refuse(options.yarn && !curves, "yarn", "curves, but the file holds none");
+    refuse(options.fiber_radius && !curves, "fiber_radius", "curves, but the file holds none");
+    refuse(options.yarn_radius && !curves, "yarn_radius", "curves, but the file holds none");
     apply_yarn(geometry, {.yarn = options.yarn,
                           .yarn_radius = static_cast<float>(options.yarn_radius.value_or(0.0)),
                           .fibers = options.fibers.value_or(0),

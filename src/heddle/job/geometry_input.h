@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace heddle::job {
 
@@ -28,6 +29,9 @@ struct GeometryInput {
     std::optional<Geometry> geometry{}; ///< is taken in place of the file
     GeometryOptions options{};
 };
+
+/// Names of the built-in yarns, which GeometryOptions::yarn takes.
+[[nodiscard]] std::vector<std::string> yarn_preset_names();
 
 /// @throws OptionError  options that do not go together
 void check_geometry_options(const GeometryOptions& options);

@@ -54,7 +54,7 @@ MeshSummary summarize_meshes(const std::vector<Mesh>& meshes) {
 
 VoxelizeOptions plan_options(const InspectOptions& options) {
     if (options.voxel_size && options.voxels) {
-        throw OptionError("`voxel_size` and `voxels` say the same thing twice; give one of them");
+        throw OptionError("`voxel_size` and `voxels` both set the resolution; give one of them");
     }
     VoxelizeOptions out;
     out.voxels = options.voxels.value_or(512);

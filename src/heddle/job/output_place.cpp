@@ -14,7 +14,7 @@ void check_output(const std::string& path, const std::string& suffix, const std:
     std::error_code ignored;
     // OutputFile would write to a device, but a .vdb needs seeks: said before the work starts
     if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
-        throw Error(ErrorCode::CannotWrite, "it is a folder or a device, not a file",
+        throw Error(ErrorCode::CannotWrite, "this is a folder or a device, not a file",
                     "write to another place", {.path = path});
     }
     if (suffix_of(path) != suffix) {

@@ -56,4 +56,22 @@ std::vector<std::string> split(std::string_view text, char separator) {
     }
 }
 
+std::string quote_line(const std::vector<std::string>& words) {
+    constexpr std::string_view kPlain =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+        "-_./,=:+@%";
+    std::string line = "heddle";
+    for (const std::string& word : words) {
+        line += ' ';
+        if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) {
+            line += word;
+            continue;
+        }
+        line += '\'';
+        for (const char c : word) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
+        line += '\'';
+    }
+    return line;
+}
+
 } // namespace heddle::cli

@@ -21,4 +21,7 @@ namespace heddle::cli {
 /// The pieces of `text` between separators: "1,2" gives "1" and "2".
 [[nodiscard]] std::vector<std::string> split(std::string_view text, char separator);
 
+/// "heddle" and the words as a shell would take them back.
+[[nodiscard]] std::string quote_line(const std::vector<std::string>& words);
+
 } // namespace heddle::cli

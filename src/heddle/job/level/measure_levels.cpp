@@ -1,7 +1,7 @@
 #include <heddle/job/level/measure_levels.h>
 
+#include <heddle/base/format_number.h>
 #include <heddle/base/memory.h>
-#include <heddle/base/show_number.h>
 #include <heddle/io/vdb/content_hash.h>
 #include <heddle/io/vdb/read_vdb.h>
 #include <heddle/io/vdb/write_vdb.h>
@@ -107,13 +107,13 @@ void tell_scope(const Scope& scope,
     if (scope.part) {
         take_notes(table.notes,
                    {str("measured on a part: ", scope.part->info().voxel_count, " of ",
-                        scope.whole[0]->info().voxel_count, " voxels in whole blocks (`part`)")},
+                        scope.whole[0]->info().voxel_count, " voxels, in whole blocks (`part`)")},
                    progress);
     }
     if (!is_slow(options.methods)) return;
     const double seconds = kSlowSeconds * static_cast<double>(scope.finest().info().voxel_count);
     take_notes(table.notes,
-               {str("wasserstein will take about ", show_seconds(seconds), " on two cores")},
+               {str("wasserstein will take about ", format_seconds(seconds), " on two cores")},
                progress);
 }
 
@@ -132,7 +132,7 @@ MethodRow build(const Scope& scope,
     const double seconds = clock.seconds() - start;
     if (levels.size() < 2) {
         throw OptionError(
-            "`part`: the part fits two voxels an axis, nothing is above it; ask for more");
+            "`part`: the part is at most two voxels wide on every axis and has no levels; give a larger number");
     }
     reporter.take(name_of(method), levels);
     return {seconds, weigh_above(std::move(levels), clock), {}};
@@ -196,8 +196,7 @@ measure_levels(const VoxelLevels& levels, const MeasureLevelsOptions& options, P
     StageClock clock(progress);
     check_measure_options(options);
     if (levels.size() < 2) {
-        throw OptionError("`levels` has the finest level alone, there is nothing above it to "
-                          "report on");
+        throw OptionError("only the finest level is there, so there are no levels to measure");
     }
     return measure(levels, {}, options, clock);
 }
@@ -208,8 +207,8 @@ measure_levels(const std::string& path, const MeasureLevelsOptions& options, Pro
     check_measure_options(options);
     if (read_infos(path).size() < 2) {
         throw Error(ErrorCode::BadFile,
-                    "has the finest level alone, there is nothing above it to report on",
-                    "build levels by 'heddle lod'", {.path = path});
+                    "has only the finest level, so there are no levels to measure",
+                    "build levels with 'heddle lod'", {.path = path});
     }
     clock.begin("read", "files", 1);
     const VoxelLevels levels = read_levels(path);

@@ -30,6 +30,17 @@ struct MethodRow {
     std::optional<double> build_seconds; ///< all levels, one pass; none of those that are there
     std::vector<std::int64_t> bytes;     ///< of the grids in a .vdb, by level from 0
     MethodErrors errors;
+
+    [[nodiscard]] std::int64_t bytes_at(int level) const {
+        const auto at = static_cast<std::size_t>(level);
+        return at < bytes.size() ? bytes[at] : 0;
+    }
+    /// Of all levels above 0.
+    [[nodiscard]] std::int64_t bytes_above() const {
+        std::int64_t sum = 0;
+        for (std::size_t l = 1; l < bytes.size(); ++l) sum += bytes[l];
+        return sum;
+    }
 };
 
 /// What was found of all.

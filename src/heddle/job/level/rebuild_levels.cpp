@@ -34,21 +34,22 @@ void check_memory(const std::vector<VoxelGridInfo>& infos, const std::string& pa
     }
     if (needed <= available_bytes()) return;
     throw Error(ErrorCode::OutOfMemory,
-                str("its levels need about ", needed >> 20, " MiB, ", available_bytes() >> 20,
-                    " MiB are free"),
-                "free some, or use a machine with more", {.path = path});
+                str("its levels need about ", needed >> 20, " MiB, but only ",
+                    available_bytes() >> 20, " MiB are free"),
+                "free some memory, or use a machine with more", {.path = path});
 }
 
 void report_levels(const VoxelLevels& levels, RebuildLevelsReport& report, Progress& progress) {
     report.counts = count_levels(levels);
     report.approximate = levels.front()->info().approximate;
     if (report.counts.voxels == 0) {
-        take_notes(report.notes, {"nothing is covered: the volume is empty"}, progress);
+        take_notes(report.notes, {"the volume is empty: no voxel is covered"}, progress);
     }
     if (report.approximate) {
-        take_notes(report.notes,
-                   {"levels are approximate: the file holds no columns and sums (`keep_masks`)"},
-                   progress);
+        take_notes(
+            report.notes,
+            {"the levels are approximate because the file holds no columns and sums (voxelize `keep_masks`)"},
+            progress);
     }
 }
 
@@ -66,7 +67,7 @@ rebuild_levels(VoxelLevels levels, const RebuildLevelsOptions& options, Progress
     StageClock clock(progress);
     const LodOptions lod = asked_levels(options);
     if (options.exact && !levels.front()->info().fields.masks) {
-        throw OptionError("`exact` is of no use here: the voxels have no columns and sums");
+        throw OptionError("`exact` needs voxels with columns and sums");
     }
     RebuildLevelsResult result;
     result.levels = heddle::rebuild_levels(std::move(levels), lod, options.exact, clock);
@@ -87,7 +88,8 @@ RebuildLevelsReport rebuild_levels_to_file(const std::string& path,
     const std::vector<VoxelGridInfo> infos = read_infos(path);
     check_memory(infos, path);
     if (options.exact && !infos.front().fields.masks) {
-        throw Error(ErrorCode::BadFile, "holds no columns and sums, so levels would be approximate",
+        throw Error(ErrorCode::BadFile,
+                    "holds no columns and sums, so its levels would be approximate",
                     "voxelize it with `keep_masks`, or leave out `exact`", {.path = path});
     }
     VoxelLevels levels = read_levels(path);

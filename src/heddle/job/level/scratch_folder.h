@@ -17,8 +17,8 @@ public:
         std::string name = (std::filesystem::temp_directory_path(none) / "heddle-XXXXXX").string();
         if (none || ::mkdtemp(name.data()) == nullptr) {
             throw Error(ErrorCode::CannotWrite,
-                        "lod-report: there is no folder for temporary files",
-                        "set TMPDIR to one that can be written to");
+                        "lod-report: cannot create a folder for temporary files",
+                        "set TMPDIR to a writable folder");
         }
         path_ = name;
     }

@@ -1,7 +1,7 @@
 #include <heddle/job/level/svg_plot.h>
 
 #include <heddle/base/error.h>
-#include <heddle/base/show_number.h>
+#include <heddle/base/format_number.h>
 
 #include <algorithm>
 #include <cmath>
@@ -87,15 +87,15 @@ std::string escape_xml(const std::string& text) {
 
 std::string
 text_at(double x, double y, const char* anchor, const std::string& text, const char* more = "") {
-    return str("<text x=\"", show_fixed(x, 1), "\" y=\"", show_fixed(y, 1), "\" text-anchor=\"",
+    return str("<text x=\"", format_fixed(x, 1), "\" y=\"", format_fixed(y, 1), "\" text-anchor=\"",
                anchor, "\"", more, ">", escape_xml(text), "</text>\n");
 }
 
 std::string
 line_from(double x0, double y0, double x1, double y1, const std::string& color, double width) {
-    return str("<line x1=\"", show_fixed(x0, 1), "\" y1=\"", show_fixed(y0, 1), "\" x2=\"",
-               show_fixed(x1, 1), "\" y2=\"", show_fixed(y1, 1), "\" stroke=\"", color,
-               "\" stroke-width=\"", show_fixed(width, 1), "\" stroke-linecap=\"round\"/>\n");
+    return str("<line x1=\"", format_fixed(x0, 1), "\" y1=\"", format_fixed(y0, 1), "\" x2=\"",
+               format_fixed(x1, 1), "\" y2=\"", format_fixed(y1, 1), "\" stroke=\"", color,
+               "\" stroke-width=\"", format_fixed(width, 1), "\" stroke-linecap=\"round\"/>\n");
 }
 
 std::string axes_of(const PlotPanel& panel, const Frame& frame) {
@@ -107,7 +107,7 @@ std::string axes_of(const PlotPanel& panel, const Frame& frame) {
         const double y = frame.y(label);
         const bool axis = label == frame.labels.front();
         out += line_from(left, y, right, y, axis ? "#333333" : "#dddddd", 1.0);
-        out += text_at(left - 8, y + 4, "end", show_fixed(label, decimals));
+        out += text_at(left - 8, y + 4, "end", format_fixed(label, decimals));
     }
     const double bottom = frame.y(frame.labels.front());
     for (int i = 1; i <= frame.count; ++i) {
@@ -125,8 +125,8 @@ std::string points_of(const PlotLine& line, const Frame& frame) {
         if (!line.y[i]) continue;
         const int at = static_cast<int>(i) + 1;
         const double x = frame.x(at), y = frame.y(*line.y[i]);
-        out += str("<circle cx=\"", show_fixed(x, 1), "\" cy=\"", show_fixed(y, 1), "\" r=\"",
-                   show_fixed(0.5 * line.width + 1.5, 1), "\" fill=\"", line.color, "\"/>\n");
+        out += str("<circle cx=\"", format_fixed(x, 1), "\" cy=\"", format_fixed(y, 1), "\" r=\"",
+                   format_fixed(0.5 * line.width + 1.5, 1), "\" fill=\"", line.color, "\"/>\n");
         if (i + 1 >= line.y.size() || !line.y[i + 1]) continue;
         out += line_from(x, y, frame.x(at + 1), frame.y(*line.y[i + 1]), line.color, line.width);
     }

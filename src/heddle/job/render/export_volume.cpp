@@ -12,16 +12,17 @@ namespace {
 
 void check_export_options(const ExportOptions& o) {
     if (o.to == ExportFormat::Mitsuba06) {
-        if (o.pad) throw OptionError("`pad` is of no use here: blocks are sparse");
+        if (o.pad)
+            throw OptionError("`pad` cannot be used with `to` mitsuba06, whose blocks are sparse");
         if (o.block_samples == 1) {
             throw OptionError(
-                "`block_samples`: neighbours share a layer, so 2 are the least; 0 = one block");
+                "`block_samples`: neighbouring blocks share a layer of samples, so the minimum is 2; 0 = a single block");
         }
         return;
     }
-    if (o.stddev) throw OptionError("`stddev` is of no use here: it needs `to` mitsuba06");
+    if (o.stddev) throw OptionError("`stddev` needs `to` mitsuba06");
     if (o.block_samples) {
-        throw OptionError("`block_samples` is of no use here: it needs `to` mitsuba06");
+        throw OptionError("`block_samples` needs `to` mitsuba06");
     }
     if (o.pad && !(*o.pad >= 1.0)) {
         throw OptionError(str("`pad` is ", *o.pad, "; it must be >= 1"));
@@ -37,10 +38,10 @@ void write_blocks(const VoxelSource& voxels,
                                  .block_samples = options.block_samples.value_or(64)};
     write_output([&] { report.files = write_mitsuba06(voxels, folder, asked, progress); });
     if (report.files->no_fiber == 0) return;
-    take_notes(
-        report.notes,
-        {str(report.files->no_fiber, " voxels are of surfaces: they have no direction here")},
-        progress);
+    take_notes(report.notes,
+               {str(report.files->no_fiber,
+                    " voxels hold only surfaces and are written without a direction")},
+               progress);
 }
 
 void write_grids(const FlakeField& field,
@@ -95,7 +96,7 @@ ExportReport export_volume(const std::string& path,
         write_blocks(*grid, folder, options, report, clock);
     } else {
         if (grid->info().voxel_count == 0) {
-            throw Error(ErrorCode::BadFile, "holds no voxels", "export a volume that has some",
+            throw Error(ErrorCode::BadFile, "holds no voxels", "export a volume that has voxels",
                         {.path = path});
         }
         const FlakeField field = field_of(*grid);

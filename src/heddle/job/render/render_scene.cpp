@@ -22,7 +22,7 @@ Scene with_options(Scene scene, const RenderOptions& options) {
                 str("`size` is ", width, " x ", height, "; it must be 1 x 1 or more"));
         }
         if (width * height > 0x1p28) { // as a scene's
-            throw OptionError("`size`: more than 2^28 pixels; make the picture smaller");
+            throw OptionError("`size`: the picture has more than 2^28 pixels; make it smaller");
         }
         scene.width = options.size->width;
         scene.height = options.size->height;
@@ -89,8 +89,8 @@ RenderReport report_of(const RenderOutcome& outcome, const Scene& scene, const S
 Scene load_scene(const std::string& path, const RenderOptions& options) {
     if (suffix_of(path) != ".vdb") return read_scene(path);
     if (options.geometry) {
-        throw OptionError("`geometry` is of no use here: a .vdb has voxels alone; name its "
-                          "geometry in a scene");
+        throw OptionError(
+            "`geometry` cannot be used with a .vdb, which holds only voxels; name the geometry in a scene");
     }
     Scene scene;
     SceneObject object;
@@ -102,7 +102,7 @@ Scene load_scene(const std::string& path, const RenderOptions& options) {
 }
 
 RenderResult render_scene(const Scene& scene, const RenderOptions& options, Progress& progress) {
-    if (options.resume) throw OptionError("`resume` is of no use here: it needs an output");
+    if (options.resume) throw OptionError("`resume` needs an output");
     const Scene asked = with_options(scene, options);
     const PathOptions paths = path_options(asked, options);
     progress.check();

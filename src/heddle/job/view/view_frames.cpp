@@ -97,6 +97,7 @@ LoadedView load_view(const ViewInput& input, const ViewOptions& options, Progres
     else
         take_notes(out.notes, load_curves(out.subject, input), clock);
     clock.check();
+    out.volume = volume.value_or("");
     if (volume) out.subject.levels = std::make_shared<VoxelLevels>(read_levels(*volume));
     clock.check();
     clock.finish();
@@ -137,7 +138,7 @@ void make_folder(const std::string& folder) {
     std::error_code failed;
     std::filesystem::create_directories(folder, failed);
     if (!std::filesystem::is_directory(folder, failed)) {
-        throw Error(ErrorCode::CannotWrite, "cannot make this folder", "write to another place",
+        throw Error(ErrorCode::CannotWrite, "cannot create this folder", "write to another place",
                     {.path = folder});
     }
 }

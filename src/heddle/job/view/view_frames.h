@@ -14,6 +14,7 @@ namespace heddle::job {
 /// What a view or a window shows, loaded.
 struct LoadedView {
     viewer::Subject subject;
+    std::string volume; ///< path of the .vdb that is shown; empty: none
     std::vector<std::string> notes;
     StageTimes stages;
 };

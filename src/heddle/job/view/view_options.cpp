@@ -14,8 +14,8 @@ void check_color(const std::string& color, bool voxels) {
     if (std::find(names.begin(), names.end(), color) != names.end()) return;
     std::string known;
     for (const std::string& name : names) known += str(known.empty() ? "" : ", ", name);
-    throw OptionError(
-        str("`color` ", color, " is none of ", voxels ? "voxels" : "slices", "; known: ", known));
+    throw OptionError(str("`color` ", color, " is not available for ", voxels ? "voxels" : "slices",
+                          "; known: ", known));
 }
 
 /// Place of `name` in `names`, which has it.
@@ -87,11 +87,12 @@ void check_view(const ViewInput& input, const ViewOptions& options, bool scene) 
     check_geometry_options(input.geometry);
     const bool volume = suffix_of(input.path) == ".vdb";
     if (input.volume && volume) {
-        throw OptionError("`volume` is of no use here: it needs curves to be shown with");
+        throw OptionError(
+            "`volume` cannot be used with a .vdb as FILE; it shows voxels beside curves");
     }
     const bool voxels = volume || options.show == viewer::Show::Voxels;
     if (!volume && !input.volume && (scene || voxels || options.color == "grid")) {
-        throw OptionError("no voxels are there to be shown: open a .vdb, or give `volume` X.vdb");
+        throw OptionError("there are no voxels to show; open a .vdb, or give `volume` X.vdb");
     }
     check_color(options.color, voxels);
     if (!(options.zoom > 0.0)) throw OptionError("`zoom` must be above 0");

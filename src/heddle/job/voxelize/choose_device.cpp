@@ -12,7 +12,7 @@ ChosenDevice choose_device(const VoxelizeJobOptions& options, const VoxelizeOpti
     if (options.device == DeviceChoice::Cuda) {
         if (device.name.empty()) {
             throw Error(ErrorCode::Device, str("`device` cuda: ", device.why),
-                        "use `device` cpu: the same bits");
+                        "use `device` cpu, which gives the same voxels");
         }
         if (!cannot.empty()) {
             throw Error(ErrorCode::Unsupported, str("`device` cuda: ", cannot), "use `device` cpu");

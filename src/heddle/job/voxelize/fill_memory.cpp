@@ -4,8 +4,9 @@
 
 namespace heddle::job {
 
-std::int64_t voxels_that_fit(const VoxelizeOptions& options,
-                             const std::function<VoxelizePlan(const VoxelizeOptions&)>& plan_of) {
+std::int64_t
+resolution_for_memory(const VoxelizeOptions& options,
+                      const std::function<VoxelizePlan(const VoxelizeOptions&)>& plan_of) {
     constexpr std::int64_t kLeast = 16;
     constexpr std::int64_t kMost = std::int64_t{1} << 20;
     const std::int64_t limit =

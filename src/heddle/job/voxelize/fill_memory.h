@@ -13,7 +13,7 @@ namespace heddle::job {
 /// @param plan_of  the plan for options, with all that will take memory
 /// @throws Error   OutOfMemory: not even 16 fit; as `plan_of`
 [[nodiscard]] std::int64_t
-voxels_that_fit(const VoxelizeOptions& options,
-                const std::function<VoxelizePlan(const VoxelizeOptions&)>& plan_of);
+resolution_for_memory(const VoxelizeOptions& options,
+                      const std::function<VoxelizePlan(const VoxelizeOptions&)>& plan_of);
 
 } // namespace heddle::job

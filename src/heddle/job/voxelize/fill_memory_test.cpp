@@ -19,7 +19,7 @@ VoxelizePlan plan_cloth(const VoxelizeOptions& options) {
 std::int64_t with_memory(std::int64_t bytes) {
     VoxelizeOptions options;
     options.memory_bytes = bytes;
-    return voxels_that_fit(options, plan_cloth);
+    return resolution_for_memory(options, plan_cloth);
 }
 
 TEST(FillMemory, TakesAsManyVoxelsAsFitToTwoPercent) {
@@ -42,7 +42,7 @@ TEST(FillMemory, SaysWhenNothingFitsAndPassesOtherErrorsOn) {
         throw Error(ErrorCode::Cancelled, "stopped");
     };
     try {
-        (void)voxels_that_fit({}, cancelled);
+        (void)resolution_for_memory({}, cancelled);
         FAIL();
     } catch (const Error& e) {
         EXPECT_EQ(e.code(), ErrorCode::Cancelled);

@@ -50,7 +50,7 @@ void finish_report(VoxelizeReport& report, StageClock& clock) {
 } // namespace
 
 Voxelizer::Voxelizer(VoxelizeJobOptions options)
-    : options_(std::move(options)), drawer_(raster_options(options_)) {
+    : options_(std::move(options)), slice_voxelizer_(raster_options(options_)) {
     check_voxelize_options(options_);
 }
 
@@ -67,7 +67,7 @@ VoxelizePlan Voxelizer::plan_of(const Run& run,
                                 Progress& clock) {
     VoxelizePlan plan = heddle::plan_voxelize(run.geometry, options, clock, builder);
     if (options_.backend != Backend::Raster) return plan;
-    plan.peak_bytes += drawer_.predict_bytes(run.geometry, options, plan);
+    plan.peak_bytes += slice_voxelizer_.predict_bytes(run.geometry, options, plan);
     plan.seconds = 0.0; // it was measured of fibers; of a driver nothing is known
     return plan;
 }
@@ -98,9 +98,10 @@ std::unique_ptr<Voxelizer::Run> Voxelizer::prepare(GeometryInput input,
     clock.begin("plan", "files", 1);
     run->builder = make_builder();
     if (options_.fill_memory) {
-        run->options.voxels = voxels_that_fit(run->options, [&](const VoxelizeOptions& tried) {
-            return plan_of(*run, tried, make_builder().get(), clock);
-        });
+        run->options.voxels =
+            resolution_for_memory(run->options, [&](const VoxelizeOptions& tried) {
+                return plan_of(*run, tried, make_builder().get(), clock);
+            });
     }
     run->report.plan = plan_of(*run, run->options, run->builder.get(), clock);
     clock.finish();
@@ -115,7 +116,8 @@ std::unique_ptr<VoxelSource> Voxelizer::make_voxels(Run& run) {
     StageClock& clock = run.clock;
     if (options_.backend == Backend::Raster) {
         raster::RasterCounts& counts = run.report.raster.emplace();
-        return drawer_.voxelize(run.geometry, run.options, plan, clock, run.builder.get(), &counts);
+        return slice_voxelizer_.voxelize(run.geometry, run.options, plan, clock, run.builder.get(),
+                                         &counts);
     }
     if (!run.device.cuda) {
         return heddle::voxelize(run.geometry, run.options, plan, clock, run.builder.get());
@@ -137,7 +139,7 @@ VoxelLevels Voxelizer::make_levels(Run& run) {
     if (run.builder) run.report.levels_thread_seconds = run.builder->visit_seconds();
     run.report.counts = count_levels(levels);
     if (run.report.counts.voxels == 0) {
-        take_notes(run.report.notes, {"nothing is covered: the volume is empty"}, run.clock);
+        take_notes(run.report.notes, {"the volume is empty: no voxel is covered"}, run.clock);
     }
     return levels;
 }

@@ -71,7 +71,7 @@ private:
     [[nodiscard]] VoxelLevels make_levels(Run& run);
 
     VoxelizeJobOptions options_;
-    raster::SliceVoxelizer drawer_;
+    raster::SliceVoxelizer slice_voxelizer_;
 };
 
 /// Lattice, predicted voxels, bytes and time; with `fill_memory` the resolution that was found.

@@ -10,20 +10,20 @@ namespace heddle::job {
 namespace {
 
 /// The Error of a frame, its file first.
-[[noreturn]] void fail_in(const Frame& frame, const Error& error) {
+[[noreturn]] void fail_in(const AnimationFrame& frame, const Error& error) {
     std::string text = error.what();
     if (text.rfind(frame.input + ": ", 0) == 0) text.erase(0, frame.input.size() + 2);
     throw Error(error.code(), str("frame ", frame.number, ": ", text), {}, {.path = frame.input});
 }
 
-using RunFrame = std::function<VoxelizeReport(const Frame& frame, GeometryInput input)>;
+using RunFrame = std::function<VoxelizeReport(const AnimationFrame& frame, GeometryInput input)>;
 
-std::vector<VoxelizeReport> run_frames(const std::vector<Frame>& frames,
+std::vector<VoxelizeReport> run_frames(const std::vector<AnimationFrame>& frames,
                                        const GeometryOptions& geometry,
                                        Progress& progress,
                                        const RunFrame& run) {
     std::vector<VoxelizeReport> reports;
-    for (const Frame& frame : frames) {
+    for (const AnimationFrame& frame : frames) {
         progress.begin_part(str("frame ", reports.size() + 1, " of ", frames.size()));
         try {
             reports.push_back(run(frame, {.path = frame.input, .options = geometry}));
@@ -38,23 +38,24 @@ std::vector<VoxelizeReport> run_frames(const std::vector<Frame>& frames,
 
 } // namespace
 
-std::vector<VoxelizeReport> voxelize_frames(const std::vector<Frame>& frames,
+std::vector<VoxelizeReport> voxelize_frames(const std::vector<AnimationFrame>& frames,
                                             const GeometryOptions& geometry,
                                             const VoxelizeJobOptions& options,
                                             Progress& progress) {
-    for (const Frame& frame : frames) check_output(frame.output, ".vdb");
+    for (const AnimationFrame& frame : frames) check_output(frame.output, ".vdb");
     Voxelizer voxelizer(options);
-    return run_frames(frames, geometry, progress, [&](const Frame& frame, GeometryInput input) {
-        return voxelizer.voxelize_to_file(std::move(input), frame.output, progress);
-    });
+    return run_frames(
+        frames, geometry, progress, [&](const AnimationFrame& frame, GeometryInput input) {
+            return voxelizer.voxelize_to_file(std::move(input), frame.output, progress);
+        });
 }
 
-std::vector<VoxelizeReport> plan_frames(const std::vector<Frame>& frames,
+std::vector<VoxelizeReport> plan_frames(const std::vector<AnimationFrame>& frames,
                                         const GeometryOptions& geometry,
                                         const VoxelizeJobOptions& options,
                                         Progress& progress) {
     Voxelizer voxelizer(options);
-    return run_frames(frames, geometry, progress, [&](const Frame&, GeometryInput input) {
+    return run_frames(frames, geometry, progress, [&](const AnimationFrame&, GeometryInput input) {
         return voxelizer.plan(std::move(input), progress);
     });
 }

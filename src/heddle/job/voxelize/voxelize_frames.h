@@ -9,7 +9,7 @@
 namespace heddle::job {
 
 /// One file of a sequence.
-struct Frame {
+struct AnimationFrame {
     std::int64_t number = 0; ///< for messages
     std::string input, output;
 };
@@ -20,14 +20,14 @@ struct Frame {
 /// @return          one a frame
 /// @throws OptionError  as voxelize_to_file
 /// @throws Error        as voxelize_to_file, with the frame's number and file in the text
-std::vector<VoxelizeReport> voxelize_frames(const std::vector<Frame>& frames,
+std::vector<VoxelizeReport> voxelize_frames(const std::vector<AnimationFrame>& frames,
                                             const GeometryOptions& geometry,
                                             const VoxelizeJobOptions& options,
                                             Progress& progress);
 
 /// plan_voxelize() for each frame.
 /// @throws Error  as voxelize_frames
-[[nodiscard]] std::vector<VoxelizeReport> plan_frames(const std::vector<Frame>& frames,
+[[nodiscard]] std::vector<VoxelizeReport> plan_frames(const std::vector<AnimationFrame>& frames,
                                                       const GeometryOptions& geometry,
                                                       const VoxelizeJobOptions& options,
                                                       Progress& progress);

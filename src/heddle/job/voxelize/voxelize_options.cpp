@@ -13,33 +13,33 @@ void refuse(bool wrong, const char* sentence) {
 void check_backend(const VoxelizeJobOptions& o) {
     if (o.backend == Backend::Raster) {
         refuse(o.device == DeviceChoice::Cuda,
-               "`device` cuda is of no use here: it needs `backend` sample");
+               "`device` cuda cannot be used with `backend` raster");
         refuse(o.device_memory_bytes.has_value(),
-               "`device_memory` is of no use here: it needs `backend` sample");
-        refuse(o.fit == FitMode::Last, "`fit` last is of no use here: it needs `backend` sample");
+               "`device_memory` cannot be used with `backend` raster");
+        refuse(o.fit == FitMode::Last, "`fit` last cannot be used with `backend` raster");
         return;
     }
-    refuse(o.composition.has_value(), "`composition` is of no use here: it needs `backend` raster");
-    refuse(o.slice_spacing.has_value(),
-           "`slice_spacing` is of no use here: it needs `backend` raster");
-    refuse(o.raster_path.has_value(), "`raster_path` is of no use here: it needs `backend` raster");
+    refuse(o.composition.has_value(), "`composition` needs `backend` raster");
+    refuse(o.slice_spacing.has_value(), "`slice_spacing` needs `backend` raster");
+    refuse(o.raster_path.has_value(), "`raster_path` needs `backend` raster");
     refuse(o.device == DeviceChoice::Cpu && o.device_memory_bytes,
-           "`device_memory` is of no use with `device` cpu");
+           "`device_memory` cannot be used with `device` cpu");
 }
 
 } // namespace
 
 void check_voxelize_options(const VoxelizeJobOptions& o) {
     refuse(o.voxel_size && o.voxels,
-           "`voxel_size` and `voxels` say the same thing twice; give one of them");
+           "`voxel_size` and `voxels` both set the resolution; give one of them");
     refuse(o.fill_memory && (o.voxels || o.voxel_size),
-           "`fill_memory` chooses the resolution: leave out `voxels` and `voxel_size`");
+           "`fill_memory` chooses the resolution; leave out `voxels` and `voxel_size`");
     refuse(o.bounds && o.bounds->empty(),
-           "`bounds`: its first corner must be the lower one on every axis");
+           "`bounds`: the first corner must be the lower one on every axis");
     refuse(o.samples > 0 && o.coverage != CoverageMode::Mask,
-           "`samples` is of no use without `coverage` mask: nothing is left to chance");
-    refuse(o.lod == LodMethod::Naive && (o.footprints.value_or(0) != 0 || o.correlation),
-           "`lod` naive averages coverage: it has no footprints and no correlation");
+           "`samples` needs `coverage` mask; columns are computed without random samples");
+    refuse(
+        o.lod == LodMethod::Naive && (o.footprints.value_or(0) != 0 || o.correlation),
+        "`footprints` and `correlation` cannot be used with `lod` naive, which averages coverage");
     refuse(o.memory_bytes && *o.memory_bytes <= 0, "`memory` must be above 0");
     refuse(o.device_memory_bytes && *o.device_memory_bytes <= 0, "`device_memory` must be above 0");
     refuse(o.slice_spacing && !(*o.slice_spacing > 0.0), "`slice_spacing` must be above 0");

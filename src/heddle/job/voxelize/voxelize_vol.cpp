@@ -2,6 +2,7 @@
 
 #include <heddle/base/memory.h>
 #include <heddle/base/parallel.h>
+#include <heddle/io/file/input_file.h>
 #include <heddle/io/vdb/write_vdb.h>
 #include <heddle/io/vol/read_vol.h>
 #include <heddle/job/option_error.h>
@@ -74,7 +75,7 @@ VoxelLevels make_levels(const VolJobOptions& options, VolReport& report, StageCl
     if (lod.max_levels > 0) levels = rebuild_levels(std::move(levels), lod, false, clock);
     report.counts = count_levels(levels);
     if (report.counts.voxels == 0) {
-        take_notes(report.notes, {"nothing is covered: the volume is empty"}, clock);
+        take_notes(report.notes, {"the volume is empty: no voxel is covered"}, clock);
     }
     return levels;
 }
@@ -87,6 +88,10 @@ void finish_report(VolReport& report, StageClock& clock) {
 }
 
 } // namespace
+
+bool is_vol_file(const std::string& path) {
+    return suffix_of(path) == ".vol";
+}
 
 VolReport plan_vol(const std::string& path, const VolJobOptions& options, Progress& progress) {
     StageClock clock(progress);

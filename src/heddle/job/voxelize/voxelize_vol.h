@@ -42,6 +42,9 @@ struct VolResult {
     VolReport report;
 };
 
+/// A path that ends in .vol.
+[[nodiscard]] bool is_vol_file(const std::string& path);
+
 /// Which files make the volume, and where its samples lie.
 /// @param path    of density, or a dictionary of blocks
 /// @throws Error  as find_vol_layout
