@@ -37,8 +37,6 @@ public:
     /// Least and greatest red value: a height map's range.
     [[nodiscard]] std::array<float, 2> red_range() const;
 
-    /// Bytes of the image.
-    [[nodiscard]] std::size_t image_bytes() const { return texture_->texels.size(); }
     /// Memory of the levels that were built, in bytes.
     [[nodiscard]] std::int64_t bytes() const;
     /// What `bytes` will give for a texture of this size.
