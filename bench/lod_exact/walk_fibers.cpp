@@ -2,6 +2,7 @@
 
 #include <heddle/base/error.h>
 #include <heddle/base/parallel.h>
+#include <heddle/voxelize/chord/yarn_frame.h>
 #include <heddle/yarn/fiber_source.h>
 
 #include <algorithm>
@@ -160,26 +161,28 @@ double walk_yarn(const YarnFibers& fibers,
 
 /// Fibers outside a bend run farther than their yarn's centreline: how many steps they need is tried.
 void walk_yarn(const FiberSource& source,
+               const LatticeUnits& units,
                const FiberPiece& piece,
                const FiberTable& table,
                std::vector<Directed>& out) {
     const YarnFibers fibers(*source.yarn_of(piece.set), table);
-    const YarnCourse course = source.course(piece);
+    const YarnCourse course = source.course(piece, units.unit);
     const std::size_t before = out.size();
-    const double allowed = kStep * source.units().unit;
+    const double allowed = kStep * units.unit;
     double steps = 1.5 * fastest(piece.cubic) / allowed;
     for (double longest = allowed * 2.0; longest > allowed;) {
         out.resize(before);
-        longest = walk_yarn(fibers, piece, course, source.units(),
-                            static_cast<int>(std::ceil(steps)), out);
+        longest = walk_yarn(fibers, piece, course, units, static_cast<int>(std::ceil(steps)), out);
         steps *= 1.05 * longest / allowed;
     }
 }
 
 /// A curve that is one fiber.
-void walk_plain(const FiberSource& source, const FiberPiece& piece, std::vector<Directed>& out) {
-    const LatticeUnits& u = source.units();
-    const YarnCourse course = source.course(piece);
+void walk_plain(const FiberSource& source,
+                const LatticeUnits& u,
+                const FiberPiece& piece,
+                std::vector<Directed>& out) {
+    const YarnCourse course = source.course(piece, u.unit);
     const auto count = static_cast<int>(std::ceil(fastest(piece.cubic) / (kStep * u.unit)));
     Run run;
     run.from = run.at = piece.cubic.at(0.0);
@@ -211,17 +214,18 @@ struct TableMemo {
 };
 
 void walk_span(const FiberSource& source,
+               const LatticeUnits& units,
                std::uint64_t span,
                TableMemo& memo,
                std::vector<Directed>& out) {
     const FiberPiece whole = source.whole_span(span);
     const YarnType* yarn = source.yarn_of(whole.set);
     for (std::uint32_t part = 0; part < whole.parts; ++part) {
-        const FiberPiece piece = FiberSource::part_of(whole, part);
+        const FiberPiece piece = part_of(whole, part);
         if (yarn == nullptr || yarn->model == YarnModel::Solid) {
-            walk_plain(source, piece, out);
+            walk_plain(source, units, piece, out);
         } else {
-            walk_yarn(source, piece, memo.of(source, piece), out);
+            walk_yarn(source, units, piece, memo.of(source, piece), out);
         }
     }
 }
@@ -233,7 +237,7 @@ void walk_fibers(const Geometry& geometry,
                  std::uint64_t seed,
                  const TakeDirections& take) {
     const LatticeUnits units(lattice);
-    const FiberSource source(geometry, units, seed);
+    const FiberSource source(geometry, piece_length_of(units), seed);
     std::vector<Directed> batch;
     for (std::uint64_t begin = 0; begin < source.span_count();) {
         std::uint64_t end = begin;
@@ -248,7 +252,7 @@ void walk_fibers(const Geometry& geometry,
             [&](std::size_t b, std::size_t e) {
                 std::vector<Directed> out;
                 TableMemo memo;
-                for (std::size_t i = b; i < e; ++i) walk_span(source, begin + i, memo, out);
+                for (std::size_t i = b; i < e; ++i) walk_span(source, units, begin + i, memo, out);
                 return out;
             },
             [](std::vector<Directed> a, const std::vector<Directed>& b) {

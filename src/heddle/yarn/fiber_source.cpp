@@ -100,9 +100,9 @@ Cubic span_cubic(const CurveSet& set, std::size_t curve, std::size_t k) {
     return span_cubic(points_of(set), curve, k);
 }
 
-FiberSource::FiberSource(const Geometry& geometry, const LatticeUnits& units, std::uint64_t seed)
+FiberSource::FiberSource(const Geometry& geometry, double piece_length, std::uint64_t seed)
     : geometry_(geometry),
-      units_(units),
+      piece_length_(piece_length),
       seed_(seed),
       first_span_(1, 0),
       curve_spans_(geometry.curves.size()),
@@ -125,7 +125,7 @@ FiberSource::FiberSource(const Geometry& geometry, const LatticeUnits& units, st
         view.has_yarn = yarn != nullptr;
         if (yarn != nullptr) view.yarn = yarn_view(*yarn);
     }
-    count_steps();
+    measure_fibers();
 }
 
 void FiberSource::build_frames(std::uint32_t s) {
@@ -164,7 +164,7 @@ void FiberSource::build_frames(std::uint32_t s) {
     });
 }
 
-void FiberSource::count_steps() {
+void FiberSource::measure_fibers() {
     for (std::uint32_t s = 0; s < geometry_.curves.size(); ++s) {
         const std::uint64_t begin = first_span_[s];
         const double total = reduce_chunks(
@@ -178,7 +178,7 @@ void FiberSource::count_steps() {
                 return sum;
             },
             [](double a, double b) { return a + b; });
-        steps_ += total / units_.unit * static_cast<double>(fiber_count(s));
+        fiber_length_ += total * static_cast<double>(fiber_count(s));
     }
 }
 

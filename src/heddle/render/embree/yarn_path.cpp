@@ -12,7 +12,7 @@ Vec3d unit_perpendicular(Vec3d t) {
 } // namespace
 
 YarnPath::YarnPath(const FiberSource& source, std::uint64_t first_span)
-    : yarn_(*source.yarn_of(source.whole_span(first_span).set)), unit_(source.units().unit) {
+    : yarn_(*source.yarn_of(source.whole_span(first_span).set)) {
     const FiberPiece first = source.whole_span(first_span);
     seed_ = source.seed() + first.set;
     curve_ = first.curve;
@@ -21,7 +21,7 @@ YarnPath::YarnPath(const FiberSource& source, std::uint64_t first_span)
     spans_.reserve(set.span_count(curve_));
     for (std::uint64_t k = 0; k < set.span_count(curve_); ++k) {
         const FiberPiece piece = source.whole_span(first_span + k);
-        spans_.push_back({piece.cubic, source.course(piece)});
+        spans_.push_back({piece.cubic, source.course(piece, 1.0)});
     }
     const auto d = [](float x) { return static_cast<double>(x); };
     if (yarn_.model == YarnModel::Slice) {
@@ -54,7 +54,7 @@ YarnPlace YarnPath::at(double t) const {
     place.binormal = cross(tangent, place.normal);
     const auto r0 = static_cast<double>(course.scale0);
     const auto r1 = static_cast<double>(course.scale1);
-    place.scale = unit_ * ((1.0 - x) * r0 + x * r1);
+    place.scale = (1.0 - x) * r0 + x * r1;
     return place;
 }
 

@@ -59,7 +59,6 @@ private:
     [[nodiscard]] double loop_factor(std::size_t fiber, double s) const;
 
     const YarnType& yarn_;
-    double unit_; ///< of the source, scene units
     std::uint64_t seed_;
     std::uint64_t curve_ = 0;
     FiberTable table_;

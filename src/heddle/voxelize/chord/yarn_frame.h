@@ -1,6 +1,7 @@
 #pragma once
 
 #include <heddle/base/trig.h>
+#include <heddle/voxel/lattice_units.h>
 #include <heddle/voxelize/chord/fiber_tile.h>
 #include <heddle/yarn/fiber_view.h>
 
@@ -8,6 +9,16 @@
 #include <cmath>
 
 namespace heddle {
+
+/// What pieces of spans are at most long, units: half a block, so that a long hair visits the blocks
+/// along it and not those of its box, and single precision resolves 1e-5 of a subvoxel beside a
+/// piece's anchor.
+constexpr double kPieceUnits = 128.0;
+
+/// The same in scene units: what a voxelizer's FiberSource is made with.
+[[nodiscard]] inline double piece_length_of(const LatticeUnits& units) {
+    return kPieceUnits * units.unit;
+}
 
 /// A piece's cubic in units, relative to the corner of its anchor voxel.
 struct LocalCubic {
