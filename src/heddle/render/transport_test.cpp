@@ -1,3 +1,4 @@
+#include <heddle/render/swept_depth.h>
 #include <heddle/render/test_volume.h>
 #include <heddle/render/transport.h>
 

@@ -1,6 +1,7 @@
 #include <heddle/render/volume.h>
 
 #include <heddle/render/clip.h>
+#include <heddle/render/transport_law.h>
 #include <heddle/sggx/moments.h>
 #include <heddle/sggx/pack.h>
 #include <heddle/sggx/sample.h>
@@ -28,6 +29,112 @@ SggxMatrix rotate(const SggxMatrix& S, const Affine& turn) {
 
 bool is_identity(const Affine& a) {
     return a.x == Affine{}.x && a.y == Affine{}.y && a.z == Affine{}.z;
+}
+
+/// What stopped a ray: a lobe of the voxel, and a direction drawn of it.
+struct DrawnLobe {
+    std::size_t lobe;
+    bool fiber;   ///< `axis` is a tangent; else a normal, of either side
+    SggxMatrix S; ///< unpacked
+    Vec3f axis;
+};
+
+/// Number of a lobe, drawn by the lobes' weights.
+/// @param whole  sum of the range's weights
+std::size_t draw_lobe_number(const VolumeLevel& level,
+                             VolumeLevel::LobeRange range,
+                             int whole,
+                             StreamRandom& random) {
+    int at = static_cast<int>(random.uniform() * static_cast<float>(whole));
+    std::size_t lobe = range.first;
+    while (lobe + 1 < range.first + range.count && at >= level.lobe(lobe).weight) {
+        at -= level.lobe(lobe++).weight;
+    }
+    return lobe;
+}
+
+/// Draws a lobe and a direction of it by how much of them is seen from `from`: tries are refused by
+/// the part that is not seen.
+DrawnLobe draw_lobe(const VolumeLevel& level,
+                    VolumeLevel::LobeRange range,
+                    Vec3f from,
+                    StreamRandom& random) {
+    constexpr int kTries = 64; // a needle seen end on: the last is kept
+    int whole = 0;
+    for (std::size_t i = 0; i < range.count; ++i) whole += level.lobe(range.first + i).weight;
+    DrawnLobe drawn{std::numeric_limits<std::size_t>::max(), false, {}, {}};
+    SggxFactor A{};
+    for (int i = 0; i < kTries; ++i) {
+        const std::size_t lobe = draw_lobe_number(level, range, whole, random);
+        if (lobe != drawn.lobe) {
+            drawn.lobe = lobe;
+            drawn.S = unpack(level.lobe(lobe).sggx);
+            A = factor(drawn.S);
+            drawn.fiber =
+                level.info().materials[level.lobe(lobe).material].kind == MaterialKind::Fiber;
+        }
+        drawn.axis = sample_ndf(A, random);
+        const float c = dot(drawn.axis, from);
+        const float seen = drawn.fiber ? std::sqrt(std::max(0.0f, 1.0f - c * c)) : std::fabs(c);
+        if (random.uniform() < seen) break;
+    }
+    return drawn;
+}
+
+/// A material times the means of its maps.
+void apply_maps(const LobeMaps& maps, ScatterMaterial& material) {
+    constexpr float kUnit = 1.0f / 255.0f;
+    for (int a = 0; a < 3; ++a) {
+        material.albedo[a] *= kUnit * static_cast<float>(maps.albedo[static_cast<std::size_t>(a)]);
+    }
+    material.roughness *= kUnit * static_cast<float>(maps.roughness);
+    material.metalness *= kUnit * static_cast<float>(maps.metalness);
+    material.anisotropy *= kUnit * static_cast<float>(maps.anisotropy);
+}
+
+/// The direction of anisotropy at right angles to `axis`: drawn, or any where the lobe has none.
+/// @param lobe  of tangents; may be null
+Vec3f draw_tangent(const PackedSggx* lobe, Vec3f axis, StreamRandom& random) {
+    const Vec3f any = any_perpendicular(axis);
+    if (lobe == nullptr || !is_positive_definite(*lobe)) return any;
+    const Vec3f t = sample_ndf(factor(unpack(*lobe)), random);
+    return normalize(t - axis * dot(t, axis), any);
+}
+
+bool is_microflake(const ScatterMaterial& material) {
+    return material.model == ScatterModel::MicroflakeSpecular ||
+           material.model == ScatterModel::MicroflakeDiffuse;
+}
+
+/// Flakes lie around a fiber: turns a lobe of tangents into one of normals, and draws one of those.
+void draw_flake(Vec3f from, StreamRandom& random, Scatterer& out) {
+    out.lobe = fit_sggx(moment_of_normals(second_moment_of(out.lobe)));
+    out.axis = sample_vndf(factor(out.lobe), from, random);
+    out.tangent = any_perpendicular(out.axis);
+}
+
+/// The level that a ray asks for at one place, and how far it does.
+struct WantedLevel {
+    int level;
+    float end; ///< t at which the next level may be asked for
+};
+
+/// @param voxel_size  of the finest level
+/// @param t, end      the level is wanted at t; a level that is forced holds until `end`
+WantedLevel
+find_wanted(const Ray& ray, const LevelChoice& choice, float voxel_size, float t, float end) {
+    if (choice.forced >= 0) return {choice.forced, end};
+    const float width = std::max(ray.width_at(t), 1e-30f);
+    const float shift = choice.offset + choice.draw;
+    const float fine = std::log2(width / voxel_size) + shift;
+    int wanted = static_cast<int>(std::clamp(std::floor(fine), 0.0f, 62.0f));
+    if (!(ray.spread > 0.0f)) return {wanted, end};
+    const auto until = [&](int level) { // t at which the ray is too wide for it
+        const float next = voxel_size * std::exp2(static_cast<float>(level) + 1.0f - shift);
+        return (next - ray.width) / ray.spread;
+    };
+    if (until(wanted) <= t * 1.00001f) ++wanted; // rounding: the last one's end
+    return {wanted, std::min(end, std::max(until(wanted), t * 1.00001f))};
 }
 
 } // namespace
@@ -74,46 +181,33 @@ int Volume::usable_level(int level) const {
 
 template <typename Note>
 void Volume::walk(const Ray& ray,
+                  Transport transport,
                   const LevelChoice& choice,
-                  TransportWalker& walker,
+                  RayPassage& passage,
                   const Note& note) const {
     if (object_bounds_.empty()) return; // no ray would ever leave it
     const Vec3d origin = to_object_.point(ray.origin);
     const Vec3d direction = to_object_.direction(to_double(ray.direction));
     const RayRange range = clip(origin, direction, ray.clear, ray.t_max, object_bounds_);
-    for (float t = range.t0; t < range.t1 && !walker.stopped();) {
-        // the level holds until the footprint asks for the next
-        float end = range.t1;
-        int wanted = choice.forced;
-        if (wanted < 0) {
-            const float width = std::max(ray.width_at(t), 1e-30f);
-            const float shift = choice.offset + choice.draw;
-            const float fine = std::log2(width / static_cast<float>(voxel_size_)) + shift;
-            wanted = static_cast<int>(std::clamp(std::floor(fine), 0.0f, 62.0f));
-            const auto until = [&](int level) { // t at which the ray is too wide for it
-                const float next = static_cast<float>(voxel_size_) *
-                                   std::exp2(static_cast<float>(level) + 1.0f - shift);
-                return (next - ray.width) / ray.spread;
-            };
-            if (ray.spread > 0.0f) {
-                if (until(wanted) <= t * 1.00001f) ++wanted; // rounding: the last one's end
-                end = std::min(end, std::max(until(wanted), t * 1.00001f));
-            }
-        }
-        const int number = usable_level(wanted);
+    for (float t = range.t0; t < range.t1 && !passage.stopped();) {
+        const WantedLevel wanted =
+            find_wanted(ray, choice, static_cast<float>(voxel_size_), t, range.t1);
+        const int number = usable_level(wanted.level);
         const VolumeLevel& level = *pyramid_[static_cast<std::size_t>(number)];
         const Vec3d h = level.info().lattice.voxel_size;
         const Vec3d per{1.0 / h.x, 1.0 / h.y, 1.0 / h.z};
         const VoxelRay voxel_ray{origin * per, direction * per};
-        walker.enter(level, voxel_ray);
         const RayRange inside =
-            clip(origin, direction, t, end, level_bounds_[static_cast<std::size_t>(number)]);
-        walk_voxels(level, voxel_ray, inside.t0, inside.t1, [&](const VoxelStep& step) {
-            if (walker.pass(level, step)) return true;
-            note(number, step);
-            return false;
+            clip(origin, direction, t, wanted.end, level_bounds_[static_cast<std::size_t>(number)]);
+        passage.enter_level();
+        with_law(transport, level, voxel_ray, ray.bulk, passage, [&](auto law) {
+            walk_voxels(level, voxel_ray, inside.t0, inside.t1, [&](const VoxelStep& step) {
+                if (law.pass(step)) return true;
+                note(number, step);
+                return false;
+            });
         });
-        t = end;
+        t = wanted.end;
     }
 }
 
@@ -122,20 +216,20 @@ bool Volume::sample_flight(const Ray& ray,
                            const LevelChoice& choice,
                            StreamRandom& random,
                            VolumeHit& hit) const {
-    TransportWalker walker(transport, true, ray.bulk, random);
-    walk(ray, choice, walker, [&](int level, const VoxelStep& step) {
-        hit = {walker.t(), level, &step.leaf, step.voxel};
+    RayPassage passage(true, random);
+    walk(ray, transport, choice, passage, [&](int level, const VoxelStep& step) {
+        hit = {passage.t(), level, &step.leaf, step.voxel};
     });
-    return walker.stopped();
+    return passage.stopped();
 }
 
 float Volume::transmittance(const Ray& ray,
                             Transport transport,
                             const LevelChoice& choice,
                             StreamRandom& random) const {
-    TransportWalker walker(transport, false, ray.bulk, random);
-    walk(ray, choice, walker, [](int, const VoxelStep&) {});
-    return walker.transmittance();
+    RayPassage passage(false, random);
+    walk(ray, transport, choice, passage, [](int, const VoxelStep&) {});
+    return passage.transmittance();
 }
 
 VolumeScatter Volume::scatter(const VolumeHit& hit,
@@ -143,87 +237,41 @@ VolumeScatter Volume::scatter(const VolumeHit& hit,
                               std::span<const ScatterMaterial> materials,
                               StreamRandom& random) const {
     const VolumeLevel& level = *pyramid_[static_cast<std::size_t>(hit.level)];
-    const VolumeLevel::LobeRange range = level.lobes_of(*hit.leaf, hit.voxel);
     const Vec3f from = rotated_ ? to_float(normalize(to_object_.direction(to_double(wi)))) : wi;
-    int whole = 0;
-    for (std::size_t i = 0; i < range.count; ++i) whole += level.lobe(range.first + i).weight;
-
-    constexpr int kTries = 64; // a needle seen end on: the last is kept
-    std::size_t chosen = range.first;
-    SggxMatrix S{};
-    SggxFactor A{};
-    std::size_t factored = std::numeric_limits<std::size_t>::max();
-    Vec3f axis{};
-    bool fiber = false;
-    for (int i = 0; i < kTries; ++i) {
-        int at = static_cast<int>(random.uniform() * static_cast<float>(whole));
-        chosen = range.first;
-        while (chosen + 1 < range.first + range.count && at >= level.lobe(chosen).weight) {
-            at -= level.lobe(chosen++).weight;
-        }
-        if (chosen != factored) {
-            S = unpack(level.lobe(chosen).sggx);
-            A = factor(S);
-            factored = chosen;
-            fiber = level.info().materials[level.lobe(chosen).material].kind == MaterialKind::Fiber;
-        }
-        axis = sample_ndf(A, random);
-        const float c = dot(axis, from);
-        const float seen = fiber ? std::sqrt(std::max(0.0f, 1.0f - c * c)) : std::fabs(c);
-        if (random.uniform() < seen) break;
-    }
+    const DrawnLobe lobe = draw_lobe(level, level.lobes_of(*hit.leaf, hit.voxel), from, random);
+    const std::uint32_t material = level.lobe(lobe.lobe).material;
 
     VolumeScatter drawn;
-    drawn.material = materials_[level.lobe(chosen).material];
-    drawn.fiber = fiber;
-    if (fiber) {
-        drawn.radius = level.info().materials[level.lobe(chosen).material].fiber_radius * scale_;
-    }
+    drawn.material = materials_[material];
+    drawn.fiber = lobe.fiber;
+    if (drawn.fiber) drawn.radius = level.info().materials[material].fiber_radius * scale_;
     drawn.edge = static_cast<float>(std::ldexp(voxel_size_, hit.level));
     Scatterer& out = drawn.scatterer;
     out.material = materials[drawn.material];
-    if (const LobeMaps* maps = level.maps(chosen)) {
-        constexpr float kUnit = 1.0f / 255.0f;
-        for (int a = 0; a < 3; ++a) {
-            out.material.albedo[a] *=
-                kUnit * static_cast<float>(maps->albedo[static_cast<std::size_t>(a)]);
-        }
-        out.material.roughness *= kUnit * static_cast<float>(maps->roughness);
-        out.material.metalness *= kUnit * static_cast<float>(maps->metalness);
-        out.material.anisotropy *= kUnit * static_cast<float>(maps->anisotropy);
-    }
-    if (!fiber && dot(axis, from) < 0.0f) axis = axis * -1.0f;
-    Vec3f tangent = any_perpendicular(axis);
-    if (const PackedSggx* lobe = level.tangent(chosen);
-        lobe != nullptr && is_positive_definite(*lobe)) {
-        const Vec3f t = sample_ndf(factor(unpack(*lobe)), random);
-        tangent = normalize(t - axis * dot(t, axis), tangent);
-    }
-    const bool flakes = out.material.model == ScatterModel::MicroflakeSpecular ||
-                        out.material.model == ScatterModel::MicroflakeDiffuse;
-    if (flakes && fiber) { // flakes lie around the fiber
-        S = fit_sggx(moment_of_normals(second_moment_of(S)));
-        axis = sample_vndf(factor(S), from, random);
-        tangent = any_perpendicular(axis);
-    }
-    if (rotated_) {
-        const bool normal = !fiber || flakes;
-        const auto turn = [&](Vec3f d, bool as_normal) {
-            const Vec3d v = to_double(d);
-            const Vec3d w =
-                as_normal ? Vec3d{dot(to_object_.x, v), dot(to_object_.y, v), dot(to_object_.z, v)}
-                          : to_world_.direction(v);
-            return to_float(normalize(w));
-        };
-        axis = turn(axis, normal);
-        tangent = turn(tangent, false);
-        tangent = normalize(tangent - axis * dot(tangent, axis), any_perpendicular(axis));
-        if (flakes) S = rotate(S, to_world_);
-    }
-    out.axis = axis;
-    out.tangent = tangent;
-    out.lobe = S;
+    if (const LobeMaps* maps = level.maps(lobe.lobe)) apply_maps(*maps, out.material);
+    out.lobe = lobe.S;
+    const bool behind = !lobe.fiber && dot(lobe.axis, from) < 0.0f; // normals are of either side
+    out.axis = behind ? lobe.axis * -1.0f : lobe.axis;
+    out.tangent = draw_tangent(level.tangent(lobe.lobe), out.axis, random);
+    const bool flakes = is_microflake(out.material);
+    if (flakes && lobe.fiber) draw_flake(from, random, out);
+    if (rotated_) turn_to_world(!lobe.fiber || flakes, out);
     return drawn;
+}
+
+void Volume::turn_to_world(bool normal, Scatterer& out) const {
+    const auto turn = [&](Vec3f d, bool as_normal) {
+        const Vec3d v = to_double(d);
+        const Vec3d w =
+            as_normal ? Vec3d{dot(to_object_.x, v), dot(to_object_.y, v), dot(to_object_.z, v)}
+                      : to_world_.direction(v);
+        return to_float(normalize(w));
+    };
+    out.axis = turn(out.axis, normal);
+    const Vec3f tangent = turn(out.tangent, false);
+    out.tangent =
+        normalize(tangent - out.axis * dot(tangent, out.axis), any_perpendicular(out.axis));
+    if (is_microflake(out.material)) out.lobe = rotate(out.lobe, to_world_);
 }
 
 } // namespace heddle
