@@ -9,9 +9,9 @@
 #include <heddle/base/error.h>
 #include <heddle/geom/affine.h>
 #include <heddle/io/vdb/read_vdb.h>
-#include <heddle/render/clip.h>
-#include <heddle/render/transport_law.h>
-#include <heddle/render/walk.h>
+#include <heddle/render/volume/clip.h>
+#include <heddle/render/volume/transport_law.h>
+#include <heddle/render/volume/walk.h>
 
 #include <chrono>
 #include <cmath>

@@ -1,7 +1,7 @@
-#include <heddle/render/volume.h>
+#include <heddle/render/volume/volume.h>
 
-#include <heddle/render/clip.h>
-#include <heddle/render/transport_law.h>
+#include <heddle/render/volume/clip.h>
+#include <heddle/render/volume/transport_law.h>
 #include <heddle/sggx/moments.h>
 #include <heddle/sggx/pack.h>
 #include <heddle/sggx/sample.h>

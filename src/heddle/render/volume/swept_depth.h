@@ -1,7 +1,7 @@
 #pragma once
 
-#include <heddle/render/transport.h>
-#include <heddle/render/volume_level.h>
+#include <heddle/render/volume/transport.h>
+#include <heddle/render/volume/volume_level.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <heddle/render/volume_level.h>
+#include <heddle/render/volume/volume_level.h>
 
 #include <cmath>
 #include <cstdint>

@@ -3,9 +3,9 @@
 #include <heddle/base/random.h>
 #include <heddle/geom/affine.h>
 #include <heddle/geom/bounds.h>
-#include <heddle/render/ray.h>
-#include <heddle/render/transport.h>
-#include <heddle/render/volume_level.h>
+#include <heddle/render/volume/ray.h>
+#include <heddle/render/volume/transport.h>
+#include <heddle/render/volume/volume_level.h>
 #include <heddle/scatter/scatterer.h>
 
 #include <cstdint>

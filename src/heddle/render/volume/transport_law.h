@@ -1,9 +1,9 @@
 #pragma once
 
 #include <heddle/base/random.h>
-#include <heddle/render/swept_depth.h>
-#include <heddle/render/transport.h>
-#include <heddle/render/walk.h>
+#include <heddle/render/volume/swept_depth.h>
+#include <heddle/render/volume/transport.h>
+#include <heddle/render/volume/walk.h>
 
 #include <algorithm>
 #include <cmath>
