@@ -4,6 +4,7 @@
 #include <heddle/base/parallel.h>
 #include <heddle/voxelize/chord/yarn_frame.h>
 #include <heddle/yarn/fiber_source.h>
+#include <heddle/yarn/yarn_section.h>
 
 #include <algorithm>
 #include <cmath>
@@ -57,24 +58,13 @@ double fastest(const Cubic& c) {
         {length(c.c[1]), length(c.c[1] + c.c[2]), length(c.c[1] + 2.0 * c.c[2] + 3.0 * c.c[3])});
 }
 
-/// One piece's centreline and cross-section, scene units.
-struct Place {
-    Vec3d center, normal, binormal;
-    double s;     ///< yarn length since its start, model units
-    double scale; ///< scene units a model unit
-
-    Place(const Cubic& cubic, const YarnCourse& course, double unit, double t) {
-        const Vec3d tangent = normalize(cubic.derivative(t));
-        const Vec3d lerped = (1.0 - t) * to_double(course.normal0) + t * to_double(course.normal1);
-        center = cubic.at(t);
-        normal = normalize(lerped - dot(lerped, tangent) * tangent);
-        binormal = cross(tangent, normal);
-        s = course.start + course.length * t;
-        const auto s0 = static_cast<double>(course.scale0);
-        const auto s1 = static_cast<double>(course.scale1);
-        scale = unit * ((1.0 - t) * s0 + t * s1);
-    }
-};
+/// A piece's cross-section, all in scene units.
+YarnSection<double>
+section_at(const FiberPiece& piece, const YarnCourse& course, double unit, double t) {
+    YarnSection<double> section(piece.cubic, course, t);
+    section.scale *= unit;
+    return section;
+}
 
 /// The fibers of a yarn at one place.                                    [Zhao 2016, sec. 4]
 class YarnFibers {
@@ -94,11 +84,9 @@ public:
 
     /// Calls visit(fiber, position).
     template <typename Visit>
-    void at(const Place& place, const YarnCourse& course, const Visit& visit) const {
+    void at(const YarnSection<double>& place, const YarnCourse& course, const Visit& visit) const {
         const double* turns = course.turns_per_length;
-        const double closing =
-            course.total > 0.0 ? course.closing_turns * place.s / course.total : 0.0;
-        const double ply_turn = kTau * (turns[0] * place.s + closing);
+        const double ply_turn = kTau * course.ply_turns(place.s);
         const double fiber_turn = kTau * turns[1] * place.s;
         const double cos_fiber = std::cos(fiber_turn), sin_fiber = std::sin(fiber_turn);
         const double migration_turn = kTau * turns[2] * place.s;
@@ -145,7 +133,8 @@ double walk_yarn(const YarnFibers& fibers,
     std::vector<Run> runs(fibers.count());
     double longest = 0.0;
     for (int j = 0; j <= count; ++j) {
-        const Place place(piece.cubic, course, u.unit, static_cast<double>(j) / count);
+        const YarnSection<double> place =
+            section_at(piece, course, u.unit, static_cast<double>(j) / count);
         fibers.at(place, course, [&](std::size_t i, Vec3d p) {
             if (j == 0) {
                 runs[i].from = runs[i].at = p;

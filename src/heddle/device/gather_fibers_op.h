@@ -276,8 +276,8 @@ struct GatherHairOp {
         const auto local = static_cast<std::int64_t>(i - first_hair[p]);
         const auto ply = static_cast<std::uint64_t>(local / cells.count());
         FlyawayHair hair;
-        if (!model.hair_of(cells.first + local % cells.count(), batch.fibers.seed + yarn.set,
-                           yarn.curve, ply, course.start, end, hair)) {
+        const HairPly of{batch.fibers.seed + yarn.set, yarn.curve, ply};
+        if (!model.hair_of(cells.first + local % cells.count(), of, course.start, end, hair)) {
             return;
         }
         const SinCos base = batch.tables.ply[batch.tables.ply_of_set[yarn.set] + ply];

@@ -18,7 +18,7 @@ namespace heddle {
 class FilteredTexture {
 public:
     /// @param threshold  in texture alpha, above 1 nothing is covered; used by TexelWeight::Mask
-    /// @param levels     build the coarser levels; false: `filtered` is not to be called
+    /// @param levels     build the coarser levels; false: `filtered` reads the finest at any level
     /// @throws Error     InvalidArgument: no texels, channels not in 1 to 4, or an array that is
     ///                   shorter than width x height x channels
     FilteredTexture(const Texture& texture, TexelWeight weight, float threshold, bool levels);

@@ -1,6 +1,7 @@
 #include <heddle/yarn/fiber_source.h>
 
 #include <heddle/base/parallel.h>
+#include <heddle/yarn/yarn_section.h>
 
 #include <algorithm>
 #include <cmath>
@@ -38,10 +39,6 @@ Vec3d tangent_at(const Cubic& c, double t) {
     const Vec3d d = c.derivative(t);
     if (dot(d, d) > 0.0) return normalize(d);
     return normalize(c.at(1.0) - c.at(0.0), Vec3d{0.0, 0.0, 1.0});
-}
-
-Vec3d perpendicular(Vec3d t) {
-    return to_double(any_perpendicular(to_float(t)));
 }
 
 template <typename T>
@@ -141,7 +138,7 @@ void FiberSource::build_frames(std::uint32_t s) {
         const std::size_t knot = spans[c] + c; // a curve has one knot more than spans
         Cubic cubic = span_cubic(set, c, 0);
         Vec3d tangent = tangent_at(cubic, 0.0);
-        Vec3d normal = perpendicular(tangent);
+        Vec3d normal = any_perpendicular(tangent);
         double sum = 0.0;
         frames.normal[knot] = to_float(normal);
         for (std::size_t k = 0; k < count; ++k) {
@@ -150,7 +147,7 @@ void FiberSource::build_frames(std::uint32_t s) {
             sum += arc_length(cubic);
             const Vec3d next = tangent_at(cubic, 1.0);
             normal = transport(normal, cubic.c[0], tangent, cubic.at(1.0), next);
-            normal = normalize(normal - dot(normal, next) * next, perpendicular(next));
+            normal = normalize(normal - dot(normal, next) * next, any_perpendicular(next));
             tangent = next;
             frames.normal[knot + k + 1] = to_float(normal);
         }

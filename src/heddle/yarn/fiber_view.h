@@ -33,6 +33,12 @@ struct YarnCourse {
     double closing_turns = 0.0;   ///< turn of the frame that closes a closed yarn, over its length
     Vec3f normal0, normal1;       ///< cross-section frame at the piece's ends
     float scale0 = 1.0f, scale1 = 1.0f; ///< of course()'s unit per model unit, at the ends
+
+    /// By how much the plies are turned at yarn length `s`, with what closes a closed yarn's frame.
+    [[nodiscard]] HEDDLE_HD double ply_turns(double s) const {
+        const double closing = total > 0.0 ? closing_turns * s / total : 0.0;
+        return turns_per_length[0] * s + closing;
+    }
 };
 
 /// A CurveSet as pointers and numbers, with what was computed of its yarns.

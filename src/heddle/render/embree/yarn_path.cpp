@@ -3,14 +3,6 @@
 #include <heddle/yarn/flyaway.h>
 
 namespace heddle {
-namespace {
-
-Vec3d unit_perpendicular(Vec3d t) {
-    return to_double(any_perpendicular(to_float(t)));
-}
-
-} // namespace
-
 YarnPath::YarnPath(const FiberSource& source, std::uint64_t first_span)
     : yarn_(*source.yarn_of(source.whole_span(first_span).set)) {
     const FiberPiece first = source.whole_span(first_span);
@@ -43,18 +35,7 @@ YarnPlace YarnPath::at(double t) const {
     if (closed() && t >= count) t -= count; // whole rounds are whole turns of all
     const double k = std::clamp(std::floor(t), 0.0, count - 1.0);
     const Span& span = spans_[static_cast<std::size_t>(k)];
-    const YarnCourse& course = span.course;
-    const double x = t - k;
-    const Vec3d tangent = normalize(span.cubic.derivative(x));
-    const Vec3d lerped = (1.0 - x) * to_double(course.normal0) + x * to_double(course.normal1);
-    YarnPlace place;
-    place.center = span.cubic.at(x);
-    place.normal = normalize(lerped - dot(lerped, tangent) * tangent, unit_perpendicular(tangent));
-    place.s = course.start + course.length * x;
-    place.binormal = cross(tangent, place.normal);
-    const auto r0 = static_cast<double>(course.scale0);
-    const auto r1 = static_cast<double>(course.scale1);
-    place.scale = (1.0 - x) * r0 + x * r1;
+    YarnPlace place(span.cubic, span.course, t - k);
     return place;
 }
 
@@ -71,9 +52,7 @@ double YarnPath::knot_of_length(double s) const {
 }
 
 PlyPlace YarnPath::ply(const YarnPlace& at, std::size_t ply) const {
-    const YarnCourse& course = spans_.front().course;
-    const double closing = course.total > 0.0 ? course.closing_turns * at.s / course.total : 0.0;
-    const SinCos turned = sincos_turns(course.turns_per_length[0] * at.s + closing);
+    const SinCos turned = sincos_turns(spans_.front().course.ply_turns(at.s));
     const auto d = [](float x) { return static_cast<double>(x); };
     const double c =
         d(table_.ply_cos[ply]) * d(turned.cos) - d(table_.ply_sin[ply]) * d(turned.sin);

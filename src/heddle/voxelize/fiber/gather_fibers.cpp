@@ -277,7 +277,7 @@ void FiberGatherer::State::gather_hairs(const YarnType& yarn,
     const HairModel model(HairShape(yarn), course.total, course.closed);
     const std::uint64_t seed = source.seed() + table_set;
     for (std::size_t ply = 0; ply + 1 < table.first_of_ply.size(); ++ply) {
-        model.for_each(seed, table_curve, ply, course.start, course.start + course.length,
+        model.for_each({seed, table_curve, ply}, course.start, course.start + course.length,
                        [&](const FlyawayHair& hair) {
                            chords.clear();
                            HairPath{cubic,
