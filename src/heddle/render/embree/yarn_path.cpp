@@ -35,8 +35,7 @@ YarnPlace YarnPath::at(double t) const {
     if (closed() && t >= count) t -= count; // whole rounds are whole turns of all
     const double k = std::clamp(std::floor(t), 0.0, count - 1.0);
     const Span& span = spans_[static_cast<std::size_t>(k)];
-    YarnPlace place(span.cubic, span.course, t - k);
-    return place;
+    return {span.cubic, span.course, t - k};
 }
 
 double YarnPath::knot_of_length(double s) const {
