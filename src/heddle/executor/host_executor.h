@@ -14,17 +14,17 @@
 
 namespace heddle::executor {
 
-/// Runs on the host's threads what CudaExecutor (cuda_executor.cuh) runs on a device: the same calls,
-/// the same bits. It is how a machine without a GPU tests all but the launches.
+/// Runs on the host's threads what CudaExecutor (cuda_executor.cuh) runs on a device, with the same
+/// calls and the same bits. A machine without a GPU tests all but the launches with it.
 ///
-/// Calls return at once or when done: results are there after wait(), read() or download().
+/// A call may return before it is done: results are there after wait(), read() or download().
 class HostExecutor final : public Executor<HostExecutor> {
 public:
-    /// @param vanish_after  launches until the device is gone, as a test has it; < 0: never
+    /// @param vanish_after  for tests: launches after which the device seems to be gone; < 0: never
     explicit HostExecutor(Budget& budget, std::int64_t vanish_after = -1)
         : Executor(budget), launches_left_(vanish_after) {}
 
-    /// n objects of all bits 0.
+    /// An array of n objects with all bits 0.
     template <typename T>
     [[nodiscard]] Array<T> make_zero(std::size_t n) {
         Array<T> out(*this, n);
@@ -73,7 +73,7 @@ private:
         }
         if (launches_left_ > 0) --launches_left_;
     }
-    // each array by itself: a sanitizer sees a step beyond its end
+    // each array is its own allocation, so that a sanitizer sees an access past its end
     void* allocate(std::size_t bytes) override {
         return ::operator new (bytes, std::align_val_t{64});
     }
