@@ -17,7 +17,7 @@ struct Uv {
     float u = 0.0f, v = 0.0f;
 };
 
-/// Triangles of one material, all vertex arrays of one length (or empty), world space.
+/// Triangles of one material in world space; vertex arrays have one length, or are empty.
 struct Mesh {
     std::vector<Vec3f> positions;  ///< n, scene units, finite
     std::vector<Vec3f> normals;    ///< n unit vectors; empty: face normals
