@@ -41,7 +41,8 @@ public:
     }
     void wait() {}
 
-    /// Calls op(i) for i in [0, n), i a std::size_t, in any order. `op` is a HEDDLE_HD functor of values.
+    /// Calls op(i) for every std::size_t i in [0, n), in any order; `op` is a HEDDLE_HD functor of
+    /// values.
     template <typename Op>
     void for_each(std::size_t n, const Op& op) {
         launch();

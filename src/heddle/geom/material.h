@@ -20,8 +20,8 @@ enum class AlphaMode : std::uint8_t {
 
 /// A material's constants, and the textures of the geometry that modulate them (-1: none).
 ///
-/// Texture channels follow glTF 2.0: base colour RGBA; metallic-roughness G = roughness,
-/// B = metalness; normal map xyz; anisotropy (KHR_materials_anisotropy) RG = direction, B = strength.
+/// Texture channels follow glTF 2.0: base colour RGBA; metallic-roughness G = roughness, B =
+/// metalness; normal map xyz; anisotropy (KHR_materials_anisotropy) RG = direction, B = strength.
 struct Material {
     std::string name;
     MaterialKind kind = MaterialKind::Surface;

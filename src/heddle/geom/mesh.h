@@ -8,7 +8,7 @@
 
 namespace heddle {
 
-/// Tangent with the sign of the bitangent: bitangent = w * cross(normal, tangent)  [glTF 2.0, 3.7.2.1]
+/// Tangent with the sign of the bitangent: bitangent = w cross(normal, tangent) [glTF 2.0, 3.7.2.1]
 struct Tangent {
     float x = 1.0f, y = 0.0f, z = 0.0f, w = 1.0f;
 };

@@ -9,9 +9,9 @@
 namespace heddle {
 
 enum class YarnModel : std::uint8_t {
-    Solid, ///< one round fiber as thick as the yarn
-    Procedural, ///< plies of fibers                                  [Zhao 2016, "Fitting procedural yarn models"]
-    Slice ///< an RGBA cross-section, swept and twisted          [LopezMoreno17, 3.2, 3.3]
+    Solid,      ///< one round fiber as thick as the yarn
+    Procedural, ///< plies of fibers    [Zhao 2016, "Fitting procedural yarn models"]
+    Slice       ///< an RGBA cross-section, swept and twisted          [LopezMoreno17, 3.2, 3.3]
 };
 
 /// Mean and standard deviation of a normal distribution.
