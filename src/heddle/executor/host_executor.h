@@ -12,15 +12,15 @@
 
 namespace heddle::executor {
 
-/// Runs on the host's threads what CudaExecutor (cuda_executor.cuh) runs on a device: the same calls,
-/// the same bits. It is how a machine without a GPU tests all but the launches.
+/// Runs on the host's threads what CudaExecutor (cuda_executor.cuh) runs on a device, with the same
+/// calls and the same bits. A machine without a GPU tests all but the launches with it.
 ///
-/// Calls return at once or when done: results are there after wait(), read() or download().
+/// A call may return before it is done: results are there after wait(), read() or download().
 class HostExecutor : public Executor<HostExecutor> {
 public:
     explicit HostExecutor(Budget& budget) : Executor(budget) {}
 
-    /// n objects of all bits 0.
+    /// An array of n objects with all bits 0.
     template <typename T>
     [[nodiscard]] Array<T> make_zero(std::size_t n) {
         Array<T> out(*this, n);
@@ -37,7 +37,8 @@ public:
     }
     void wait() {}
 
-    /// Calls op(i) for i in [0, n), i a std::size_t, in any order. `op` is a HEDDLE_HD functor of values.
+    /// Calls op(i) for every std::size_t i in [0, n), in any order; `op` is a HEDDLE_HD functor of
+    /// values.
     template <typename Op>
     void for_each(std::size_t n, const Op& op) {
         const StageTimer timer(times_, stage());
@@ -60,7 +61,7 @@ public:
     }
 
 private:
-    // each array by itself: a sanitizer sees a step beyond its end
+    // each array is its own allocation, so that a sanitizer sees an access past its end
     void* allocate(std::size_t bytes) override {
         return ::operator new (bytes, std::align_val_t{64});
     }

@@ -8,8 +8,8 @@
 
 namespace heddle {
 
-/// Linear RGB as control points carry it (CurveSet::color): 8 bits each in bits 0 to 23, rounded.
-/// @param linear  what lies outside [0, 1] is clamped
+/// Packs linear RGB as CurveSet::color stores it: 8 bits each in bits 0 to 23, rounded.
+/// @param linear  values outside [0, 1] are clamped
 [[nodiscard]] inline std::uint32_t pack_color(Vec3f linear) {
     std::uint32_t out = 0;
     for (int c = 0; c < 3; ++c) {

@@ -25,7 +25,7 @@ DirectionHistogram all_in(int x, int y, int z) {
 }
 
 TEST(SlicedWasserstein, MovedMassCostsItsMeanProjectedWay) {
-    // by one bin (.4) along x: lines along x 1, face diagonals 4 of 6 with 1/sqrt 2, body 1/sqrt 3
+    // one bin (0.4) along x: lines along x 1, face diagonals 4 of 6 with 1/sqrt 2, body 1/sqrt 3
     const double mean = (1.0 + 4.0 / std::sqrt(2.0) + 4.0 / std::sqrt(3.0)) / 13.0;
     const DirectionHistogram start = all_in(2, 2, 2);
     EXPECT_NEAR(sliced_wasserstein(start, all_in(3, 2, 2)), 0.4 * mean, 1e-6);
