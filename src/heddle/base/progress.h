@@ -8,9 +8,9 @@
 
 namespace heddle {
 
-/// What long work reports to and is stopped by. The default one reports nothing and never stops.
+/// The interface by which long work reports progress and is cancelled. This one reports nothing.
 ///
-/// `advance` and `cancelled` are called from any thread; all else from one thread between stages.
+/// `advance` and `cancelled` are called from any thread; all else from one thread, between phases.
 class Progress {
 public:
     Progress() = default;
@@ -18,16 +18,16 @@ public:
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// A stage starts: `total` units of `unit` ("steps", "voxels") are ahead.
+    /// Starts a phase: `total` units of `unit` ("steps", "voxels") are to be done.
     virtual void begin(std::string_view stage, std::string_view unit, std::int64_t total);
-    /// `units` more are done.
+    /// Reports that another `units` units are done.
     virtual void advance(std::int64_t units);
-    /// A part of the work starts ("frame 2 of 24"): the stages that follow are its own.
+    /// Starts a part of the work ("frame 2 of 24"): the phases that follow belong to it.
     virtual void begin_part(std::string_view name);
-    /// A sentence that the user should see before the work goes on.
+    /// Tells the user one sentence while the work goes on.
     virtual void note(std::string_view sentence);
 
-    /// Asks the work to stop: it throws Error{Cancelled} at its next check. Safe in a signal handler.
+    /// Asks the work to stop: it throws Error{Cancelled} at its next check. Signal-safe.
     void cancel() noexcept { cancelled_.store(true, std::memory_order_relaxed); }
     [[nodiscard]] bool cancelled() const noexcept {
         return cancelled_.load(std::memory_order_relaxed) ||

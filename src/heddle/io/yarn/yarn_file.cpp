@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A yarn's text is some 30 lines: a larger file is something else.
+/// A yarn file has about 30 lines: a larger file is of another kind.
 constexpr std::uint64_t kMostBytes = 1 << 20;
 
 const YarnPreset* find_preset(const std::string& name) {
@@ -24,7 +24,7 @@ const YarnPreset* find_preset(const std::string& name) {
     return nullptr;
 }
 
-/// Names with their nearest kin for an Error on one that is not there.
+/// Throws the Error for a name that does not exist, with the nearest known name.
 [[noreturn]] void throw_unknown(const std::string& name) {
     const std::vector<std::string> names = list_presets();
     throw Error(ErrorCode::NotFound, str("there is no yarn preset or file '", name, "'",
@@ -53,7 +53,7 @@ YarnFile read_yarn(const std::string& preset_or_path, const LoadTexture& load_te
     const std::string suffix = suffix_of(preset_or_path);
     if (suffix == ".toml") return parse_yarn_toml(text, preset_or_path, load_texture);
     if (suffix == ".txt") return parse_yarn_fit(text, preset_or_path);
-    throw Error(ErrorCode::Unsupported, str("the suffix '", suffix, "' names no form of a yarn"),
+    throw Error(ErrorCode::Unsupported, str("the suffix '", suffix, "' is not that of a yarn file"),
                 "give a fit as .txt or a yarn as .toml", {.path = preset_or_path});
 }
 
