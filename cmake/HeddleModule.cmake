@@ -6,7 +6,8 @@
 set(HEDDLE_CORE_ROOMS base executor geom sggx voxel yarn surface voxelize/block voxelize/chord voxelize/fiber
   voxelize/triangle voxelize lod device/level device)
 add_library(heddle_flags INTERFACE)
-set(_w -Wall -Wextra -Wshadow -Wconversion -Wdouble-promotion -Wundef -Wnon-virtual-dtor -Woverloaded-virtual -ffp-contract=off)
+set(_w -Wall -Wextra -Wshadow -Wconversion -Wdouble-promotion -Wundef -Wnon-virtual-dtor -Woverloaded-virtual -ffp-contract=off
+  -fno-semantic-interposition) # with -fPIC g++ would otherwise not inline a function that another file can call
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   list(APPEND _w -Wno-restrict) # false at -O3 for "text" + std::string (GCC bug 105651)
 endif()
