@@ -49,7 +49,7 @@ CMAKE
 # words
 works
 [ "$(wc -l <out.txt)" -eq 8 ] || wrong "heddle alone prints $(wc -l <out.txt) lines, not 8"
-for name in $("$heddle" help-tables | sed -n 's/^\*\*heddle \(.*\)\*\*$/\1/p'); do
+for name in $("$heddle" help-tables | sed -n 's/^## heddle \(.*\)$/\1/p'); do
     grep -qw -- "$name" out.txt || wrong "heddle alone does not name $name"
 done
 works --version
@@ -69,11 +69,24 @@ works generate knit --counts 6,6 -o knit.bcc
 works generate grass --counts 20,4 -o grass.glb
 works generate hair --counts 50,8 -o hair.hair
 
+# a weave's file holds its warp and its weft: NX yarns of 8 NY + 3 points, NY of 8 NX + 3, as the report says
+number() { od -An -t u8 -j "$1" -N 8 "$2" | tr -d ' '; }
+for kind in plain twill satin; do
+    works generate $kind --counts 7,5 -o weave.bcc --json
+    points=$(number 16 weave.bcc)
+    [ "$(number 8 weave.bcc)" -eq 12 ] || wrong "$kind: $(number 8 weave.bcc) curves are in the file, not 7 + 5"
+    [ "$points" -eq $((7 * 43 + 5 * 59)) ] || wrong "$kind: $points points are in the file"
+    [ "$points" -eq "$(json nodes)" ] || wrong "$kind: $points points are in the file, the report says $(json nodes)"
+    [ "$(wc -c <weave.bcc)" -eq $((64 + 12 * 4 + points * 12)) ] || wrong "$kind: $(wc -c <weave.bcc) bytes"
+    works info weave.bcc --json
+    [ "$(json curves)" -eq 12 ] || wrong "$kind: info sees $(json curves) curves"
+done
+
 # a slice, its yarn, and OpenGL: the same bits at any thread count; one line where there is no driver
 works slice cotton --size 64 -o slice.png --yarn-file slice.toml --occlusion dark.png --mipmaps sizes.png
 fails 2 "is not a procedural yarn" slice slice.toml -o again.png
-fails 2 "--composition is of no use here" voxelize knit.bcc -o a.vdb --composition max
-fails 2 "--fit last is of no use here" voxelize knit.bcc -o a.vdb --backend raster --fit last
+fails 2 "--composition needs --backend raster" voxelize knit.bcc -o a.vdb --composition max
+fails 2 "--fit last cannot be used with --backend raster" voxelize knit.bcc -o a.vdb --backend raster --fit last
 fails 3 "has meshes" voxelize grass.glb --voxels 32 -o a.vdb --backend raster
 __EGL_VENDOR_LIBRARY_DIRS=/nonexistent fails 4 "opengl: no driver" voxelize knit.bcc --yarn-radius 0.1 --voxels 32 -o a.vdb --backend raster --quiet
 for threads in 1 2; do
@@ -81,7 +94,7 @@ for threads in 1 2; do
 done
 works info raster1.vdb --json && hash1=$(json content_hash)
 works info raster2.vdb --json && [ "$(json content_hash)" = "$hash1" ] || wrong "raster: other bits with 2 threads"
-fails 2 "--raster-path is of no use here" voxelize knit.bcc -o a.vdb --raster-path compute
+fails 2 "--raster-path needs --backend raster" voxelize knit.bcc -o a.vdb --raster-path compute
 for path in fragment compute; do
     works voxelize knit.bcc --yarn slice.toml --voxels 32 --backend raster --raster-path $path -o path.vdb --json
     [ "$(json raster_path)" = $path ] || wrong "raster: path $path was not taken"
@@ -91,9 +104,9 @@ done
 
 # a sequence in one run: each frame has the bits of a run of its own, and is kept where a later one fails
 for k in 1 2 3; do works generate knit --counts $((k + 1)),2 -o cloth_000$k.bcc; done
-fails 2 "must hold the frame's number once" voxelize cloth.bcc --frames 1-3 -o 'o_%02d.vdb'
-fails 2 "--output: 'o.vdb' must hold" voxelize 'cloth_%04d.bcc' --frames 1-3 -o o.vdb
-fails 2 "is no range" voxelize 'cloth_%04d.bcc' --frames 3-1 -o 'o_%02d.vdb'
+fails 2 "must contain the frame number exactly once" voxelize cloth.bcc --frames 1-3 -o 'o_%02d.vdb'
+fails 2 "--output: 'o.vdb' must contain" voxelize 'cloth_%04d.bcc' --frames 1-3 -o o.vdb
+fails 2 "is not a range" voxelize 'cloth_%04d.bcc' --frames 3-1 -o 'o_%02d.vdb'
 fails 2 "it needs curves or meshes" voxelize 'cloth_%04d.vol' --frames 1-3 -o 'o_%02d.vdb'
 for backend in sample raster; do
     works voxelize 'cloth_%04d.bcc' --frames 1-3:2 --yarn slice.toml --voxels 32 --backend $backend -o 'o_%02d.vdb' --json
@@ -113,19 +126,19 @@ fails 3 "cloth_0002.bcc: frame 2: byte 0" voxelize 'cloth_%04d.bcc' --frames 1-3
 works export raster1.vdb --to mitsuba06 -o flakes
 works info flakes/volume.vol
 works voxelize flakes/volume.vol --levels 0 -o flakes.vdb
-fails 2 "--pad is of no use here" export raster1.vdb --to mitsuba06 --pad 2 -o flakes
+fails 2 "--pad cannot be used with --to mitsuba06" export raster1.vdb --to mitsuba06 --pad 2 -o flakes
 works export raster1.vdb --to mitsuba06 --block-samples 0 -o flake --json
 [ "$(json blocks)" -eq 1 ] && works voxelize flake/volume.vol --levels 0 -o flake.vdb || wrong "more than one block holds all"
-fails 2 "2 are the least" export raster1.vdb --to mitsuba06 --block-samples 1 -o flake
-fails 2 "--block-samples is of no use here" export raster1.vdb --block-samples 8 -o flakes
-fails 2 "--stddev is of no use here" export raster1.vdb --stddev 0.5 -o flakes
+fails 2 "the minimum is 2" export raster1.vdb --to mitsuba06 --block-samples 1 -o flake
+fails 2 "--block-samples needs --to mitsuba06" export raster1.vdb --block-samples 8 -o flakes
+fails 2 "--stddev needs --to mitsuba06" export raster1.vdb --stddev 0.5 -o flakes
 works view knit.bcc --headless --yarn slice.toml --frames 2 --size 64x64 -o frames
 [ "$(head -c 4 frames/frame_0001.png | tail -c 3)" = PNG ] || wrong "the second frame is no PNG"
 fails 2 "needs a folder" view knit.bcc --headless
 fails 2 "needs --headless" view knit.bcc --frames 2
-fails 2 "--color level is none of slices" view knit.bcc --headless --color level -o frames
-fails 2 "no voxels are there" view knit.bcc --headless --color grid -o frames
-fails 2 "no voxels are there" view knit.bcc --headless --scene -o frames
+fails 2 "--color level is not available for slices" view knit.bcc --headless --color level -o frames
+fails 2 "there are no voxels to show" view knit.bcc --headless --color grid -o frames
+fails 2 "there are no voxels to show" view knit.bcc --headless --scene -o frames
 works voxelize knit.bcc --voxels 40 -o seen.vdb
 works voxelize knit.bcc --fill-memory --memory 60M --dry-run -o filled.vdb
 fails 2 "--fill-memory chooses" voxelize knit.bcc --fill-memory --voxels 9 -o filled.vdb
@@ -133,9 +146,9 @@ works view seen.vdb --headless --size 64x64 --color density --blocks --white-blo
 [ -s seen/frame_0000.png ] || wrong "no picture of a volume"
 works render seen/seen_view.toml --samples 1 --size 16x16 -o scene.png
 works view knit.bcc --volume seen.vdb --headless --size 64x64 --color grid --blocks -o seen
-fails 2 "--volume is of no use here" view seen.vdb --volume seen.vdb --headless -o seen
+fails 2 "--volume cannot be used with a .vdb" view seen.vdb --volume seen.vdb --headless -o seen
 fails 3 "has meshes" view grass.glb --headless -o frames
-fails 2 "is of no use here" view grass.glb --headless --yarn cotton -o frames
+fails 2 "--yarn needs curves" view grass.glb --headless --yarn cotton -o frames
 
 # bad inputs, with an old output in the way
 echo old >old.vdb
@@ -171,8 +184,8 @@ vol 3 1 7 >cut.vol && bad_vol "7 bytes are left" cut.vol
 vol 3 1 9 >long.vol && bad_vol "1 bytes follow" long.vol
 vol 4 3 16 >a-orientation.vol && bad_vol "not density" a-orientation.vol
 vol 3 1 8 >a-density.vol
-fails 2 "--voxels is of no use here" voxelize a-density.vol --voxels 32 -o old.vdb
-fails 2 "--albedo is of no use here" voxelize knit.bcc --albedo 0.5 -o old.vdb
+fails 2 "--voxels cannot be used with a .vol" voxelize a-density.vol --voxels 32 -o old.vdb
+fails 2 "--albedo applies only to .vol files" voxelize knit.bcc --albedo 0.5 -o old.vdb
 works info a-density.vol
 grep -q '^orientation *directions, a-orientation.vol' out.txt || wrong "info of a .vol: $(cat out.txt)"
 works voxelize a-density.vol -o vol.vdb --json
@@ -185,6 +198,9 @@ mesh() { # TEXT FACE X: a mesh of three points, the first at X
     printf 'v %s 0 0\nv 1 0 0\nv 0 1 0\nf %s\n' "$3" "$2" >bad.obj && bad "$1" bad.obj
 }
 mesh "bad.obj:4" "1 2 4" 0
+printf 'v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3000000\r' >bad.obj && bad "bad.obj:4: names vertex 3000000 of 3" bad.obj
+printf '# a Mac\rv 0 0 0\rv 1 0 0\rv 0 1 0\rf 1/ 2 3\r' >mac.obj && works info mac.obj --json
+[ "$(json triangles)" -eq 1 ] || wrong "a file of carriage returns has $(json triangles) triangles"
 mesh "bad.obj:1" "1 2 3" nan
 mesh "bad.obj:1" "1 2 3" 1e39
 printf 'v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n' >point.obj && bad "has no extent" point.obj
@@ -268,8 +284,8 @@ if ! "$heddle" voxelize knit.bcc --voxels 40 --device cuda -o cuda.vdb >out.txt 
     fails 4 "use --device cpu" voxelize knit.bcc --voxels 40 --device cuda -o cuda.vdb
     cmp -s cpu.vdb cuda.vdb || wrong "a refused --device cuda touched the old output"
 fi
-fails 2 "--device-memory is of no use here" voxelize knit.bcc -o a.vdb --backend raster --device-memory 1G
-fails 2 "--device-memory is of no use" voxelize knit.bcc -o a.vdb --device cpu --device-memory 1G
+fails 2 "--device-memory cannot be used with --backend raster" voxelize knit.bcc -o a.vdb --backend raster --device-memory 1G
+fails 2 "--device-memory cannot be used with --device cpu" voxelize knit.bcc -o a.vdb --device cpu --device-memory 1G
 works voxelize knit.bcc --dry-run --json -o dry.vdb
 [ "$(json predicted_peak_memory_bytes)" -gt 0 ] || wrong "a dry run predicts no memory"
 [ ! -e dry.vdb ] || wrong "a dry run wrote its output"
@@ -285,6 +301,16 @@ fi
 works info one.vdb
 grep -q '^level 0 .* KiB' out.txt || wrong "info lists no level 0: $(cat out.txt)"
 works voxelize knit.bcc --yarn cotton --voxels 64 --levels 0 -o flat.vdb
+# what neighbours share: level 0 alone has the bytes of level 0 among all
+for backend in sample raster; do
+    works voxelize knit.bcc --yarn slice.toml --voxels 64 --correlation --backend $backend -o shared.vdb
+    works voxelize knit.bcc --yarn slice.toml --voxels 64 --correlation --backend $backend --levels 0 -o shared0.vdb
+    works lod shared.vdb --levels 0 -o cut.vdb
+    works info shared0.vdb --json && hash0=$(json content_hash)
+    works info cut.vdb --json && [ "$(json content_hash)" = "$hash0" ] || wrong "--levels 0 has another correlation, $backend"
+    works voxelize knit.bcc --yarn slice.toml --voxels 64 --backend $backend --levels 0 -o shared0.vdb
+    works info shared0.vdb --json && [ "$(json content_hash)" != "$hash0" ] || wrong "no correlation is stored, $backend"
+done
 fails 3 "flat.vdb: has no level 1; its only level is 0" preview flat.vdb --level 1 -o one.png
 fails 3 "one.vdb: has no level 9; its levels are 0 to 6" preview one.vdb --level 9 -o one.png
 works preview one.vdb --level 5 -o one.png
@@ -322,7 +348,7 @@ works lod-report masks.vdb --parents 20 --methods single --json
 [ "$(json coverage_truth)" = union ] || wrong "masks give no union"
 works lod-report masks.vdb --parents 20 --methods wasserstein --part 500 --quiet
 works voxelize knit.bcc --voxels 32 --levels 0 -o level0.vdb --quiet
-fails 3 "level0.vdb: has the finest level alone" lod-report level0.vdb
+fails 3 "level0.vdb: has only the finest level" lod-report level0.vdb
 fails 3 "missing.vdb" lod-report missing.vdb
 fails 3 "knit.bcc: byte 0: not a VDB" lod-report knit.bcc
 fails 2 "did you mean 'moments'?" lod-report masks.vdb --methods moment
@@ -364,7 +390,7 @@ fails 2 "--size" render one.vdb -o x.exr --size 0x10
 fails 2 "2^28" render one.vdb -o x.exr --size 65536x65536
 fails 2 "--samples" render one.vdb -o x.exr --samples 0
 fails 2 "--exposure" render one.vdb -o x.png --exposure nan
-fails 2 "--geometry is of no use here" render one.vdb -o x.exr --geometry
+fails 2 "--geometry cannot be used with a .vdb" render one.vdb -o x.exr --geometry
 fails 1 "nowhere" render one.vdb -o nowhere/x.exr
 mkdir folder.exr && fails 1 "folder.exr" render one.vdb -o folder.exr
 fails 3 "missing.vdb" render missing.vdb -o x.exr

@@ -4,6 +4,7 @@
 #include <heddle/geom/generate.h>
 #include <heddle/sggx/moments.h>
 #include <heddle/sggx/pack.h>
+#include <heddle/voxelize/voxelize.h>
 
 #include <gtest/gtest.h>
 

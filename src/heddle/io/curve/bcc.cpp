@@ -116,11 +116,11 @@ std::string describe_up_axis(std::uint8_t axis) {
     return str("up axis is ", "xyz"[axis], "; coordinates are as in the file");
 }
 
+[[noreturn]] void refuse(const std::string& what) {
+    throw Error(ErrorCode::InvalidArgument, what);
+}
+
 void check_writable(const CurveSet& set) {
-    const auto refuse = [](const std::string& what) {
-        throw Error(ErrorCode::InvalidArgument, what);
-    };
-    if (set.curve_count() == 0) refuse("there are no curves to write to a .bcc file");
     for (std::size_t c = 0; c < set.curve_count(); ++c) {
         const std::uint64_t n = set.first[c + 1] - set.first[c];
         const std::uint64_t least = min_point_count(set.basis, set.is_closed(c));
@@ -129,6 +129,32 @@ void check_writable(const CurveSet& set) {
             refuse(str("curve ", c, " has ", n, " points, a .bcc file of its kind takes ", least,
                        " to ", kMost));
         }
+    }
+}
+
+/// The header's counts for sets that can stand in one file.
+BccHeader header_of(std::span<const CurveSet> sets) {
+    BccHeader header;
+    for (const CurveSet& set : sets) {
+        if (set.curve_count() == 0) continue;
+        check_writable(set);
+        if (header.curves > 0 && set.basis != header.basis)
+            refuse("the curves have several bases, a .bcc file has one");
+        header.basis = set.basis;
+        header.curves += set.curve_count();
+        header.points += set.points.size();
+    }
+    if (header.curves == 0) refuse("there are no curves to write to a .bcc file");
+    return header;
+}
+
+void write_curves(const CurveSet& set, OutputFile& file) {
+    for (std::size_t c = 0; c < set.curve_count(); ++c) {
+        const auto points =
+            std::span(set.points).subspan(set.first[c], set.first[c + 1] - set.first[c]);
+        const auto n = static_cast<std::int32_t>(points.size());
+        file.write_value(set.is_closed(c) ? -n : n);
+        file.write_array(std::span<const Vec3f>(points));
     }
 }
 
@@ -170,31 +196,29 @@ Geometry read_bcc(const std::string& path, const CurveReadOptions& options) {
     return geometry;
 }
 
-void write_bcc(const CurveSet& set, const std::string& path, int up_axis) {
-    check_writable(set);
+void write_bcc(std::span<const CurveSet> sets, const std::string& path, int up_axis) {
+    const BccHeader header = header_of(sets);
     if (up_axis < 0 || up_axis > 2) {
         throw Error(ErrorCode::InvalidArgument, str("up axis is ", up_axis, ", it must be 0 to 2"));
     }
     OutputFile file(path);
     file.write("BCC\x44", 4);
     for (const BasisName& b : kBasisNames) {
-        if (b.basis == set.basis) file.write(b.name, 2);
+        if (b.basis == header.basis) file.write(b.name, 2);
     }
     file.write_value(std::uint8_t{3});
     file.write_value(static_cast<std::uint8_t>(up_axis));
-    file.write_value<std::uint64_t>(set.curve_count());
-    file.write_value<std::uint64_t>(set.points.size());
+    file.write_value<std::uint64_t>(header.curves);
+    file.write_value<std::uint64_t>(header.points);
     constexpr std::array<char, kInfoBytes> kInfo{"Heddle"};
     file.write_array(std::span<const char>(kInfo));
     static_assert(4 + 2 + 1 + 1 + 8 + 8 + kInfoBytes == kHeaderBytes);
-    for (std::size_t c = 0; c < set.curve_count(); ++c) {
-        const auto points =
-            std::span(set.points).subspan(set.first[c], set.first[c + 1] - set.first[c]);
-        const auto n = static_cast<std::int32_t>(points.size());
-        file.write_value(set.is_closed(c) ? -n : n);
-        file.write_array(std::span<const Vec3f>(points));
-    }
+    for (const CurveSet& set : sets) write_curves(set, file);
     file.commit();
+}
+
+void write_bcc(const CurveSet& set, const std::string& path, int up_axis) {
+    write_bcc(std::span(&set, 1), path, up_axis);
 }
 
 } // namespace heddle

@@ -2,6 +2,7 @@
 
 #include <heddle/geom/geometry.h>
 
+#include <span>
 #include <string>
 
 namespace heddle {
@@ -56,10 +57,12 @@ struct CurveReadOptions {
 /// @throws Error  also Unsupported: another suffix
 [[nodiscard]] Geometry read_curves(const std::string& path, const CurveReadOptions& options = {});
 
-/// Writes .bcc: points, basis and closedness. Radius and colour have no place in it.
-/// @param set      at least one curve, each with enough points for its basis
+/// Writes .bcc: points, basis and closedness. Radius, colour and material have no place in it.
+/// @param sets     one after the other; at least one curve in all, one basis, each curve with enough
+///                 points for it
 /// @param up_axis  0 to 2, what other programs will take as up (2: flat patterns, 1: garments)
-/// @throws Error   InvalidArgument: a set that read_bcc would refuse; as OutputFile
+/// @throws Error   InvalidArgument: sets that read_bcc would refuse; as OutputFile
+void write_bcc(std::span<const CurveSet> sets, const std::string& path, int up_axis = 2);
 void write_bcc(const CurveSet& set, const std::string& path, int up_axis = 2);
 
 /// Writes .hair: strands with thickness (2 x radius; an array if it varies) and colours if there

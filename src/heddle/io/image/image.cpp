@@ -3,6 +3,7 @@
 #include <heddle/base/error.h>
 #include <heddle/io/file/input_file.h>
 #include <heddle/io/file/output_file.h>
+#include <heddle/io/image/jpeg_tables.h>
 
 #include <limits>
 #include <memory>
@@ -62,6 +63,7 @@ Texture decode_image(std::span<const std::byte> bytes, const std::string& name) 
     if (bytes.empty()) fail("is empty, not a PNG or JPEG image");
     if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
         fail(str("has ", bytes.size(), " bytes, an image has fewer than 2^31"));
+    check_jpeg_tables(bytes, name); // stb 2.27 writes past its arrays by what they say
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
     const int size = static_cast<int>(bytes.size());
     Texture image;

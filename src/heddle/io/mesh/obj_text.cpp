@@ -9,12 +9,13 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <span>
 #include <string_view>
 
 namespace heddle {
 namespace {
 
-constexpr std::string_view kBlank = " \t\r";
+constexpr std::string_view kBlank = " \t";
 constexpr int kMaxCorners = 4096; // cutting a polygon takes time quadratic in its corners
 
 std::string_view next_token(std::string_view& rest) {
@@ -38,16 +39,22 @@ class ObjChecker {
 public:
     explicit ObjChecker(std::string path) : path_(std::move(path)) {}
 
-    /// True where the statement is one that the parser should see.
-    bool accept(std::string_view statement, std::int64_t line) {
+    /// True where the statement is one that the parser should see, as it is afterwards.
+    bool accept(std::span<char> statement, std::int64_t line) {
         line_ = line;
-        std::string_view rest = statement;
+        std::string_view rest(statement.data(), statement.size());
         const std::string_view keyword = next_token(rest);
         if (keyword == "v") return check_numbers(rest, kPosition, 3);
         if (keyword == "vt") return check_numbers(rest, kUv, 1);
         if (keyword == "vn") return check_numbers(rest, kNormal, 3);
-        if (keyword == "f") return check_corners(rest, "face", 3);
-        if (keyword == "l") return check_corners(rest, "line", 2);
+        if (keyword == "f" || keyword == "l") {
+            if (keyword == "f")
+                check_corners(rest, "face", 3);
+            else
+                check_corners(rest, "line", 2);
+            blank_last_slashes(statement);
+            return true;
+        }
         if (keyword == "mtllib") {
             const std::size_t start = std::min(rest.find_first_not_of(kBlank), rest.size());
             libraries.emplace_back(rest.substr(start, rest.find_last_not_of(kBlank) + 1 - start));
@@ -90,7 +97,7 @@ private:
         return true;
     }
 
-    bool check_corners(std::string_view rest, const char* what, int needed) {
+    void check_corners(std::string_view rest, const char* what, int needed) {
         int corners = 0;
         for (std::string_view token = next_token(rest); !token.empty(); token = next_token(rest)) {
             check_corner(token, what);
@@ -99,7 +106,16 @@ private:
         if (corners < needed || corners > kMaxCorners)
             fail(str("a ", what, " has ", corners, " corners, allowed are ", needed, " to ",
                      kMaxCorners));
-        return true;
+    }
+
+    /// Takes away the slash of `1/` and `1/2/`: the parser would look for an index behind it, and find
+    /// the next corner's.
+    static void blank_last_slashes(std::span<char> statement) {
+        for (std::size_t i = 0; i < statement.size(); ++i) {
+            const bool last = i + 1 == statement.size() ||
+                              kBlank.find(statement[i + 1]) != std::string_view::npos;
+            if (statement[i] == '/' && last) statement[i] = ' ';
+        }
     }
 
     /// `v`, `v/vt`, `v//vn` or `v/vt/vn`
@@ -121,7 +137,7 @@ private:
             if (stop == end) return;
             if (*stop != '/') break;
             at = stop + 1;
-            if (at == end) return; // `1/` and `1/2/` are seen in the wild
+            if (at == end && kind != kNormal) return; // `1/` and `1/2/` are seen in the wild
         }
         fail(str("a ", what, " has the corner '", token.substr(0, 40), "', expected v/vt/vn"));
     }
@@ -139,6 +155,18 @@ private:
     std::array<Largest, 3> largest_{};
 };
 
+/// Makes every line end one '\n': "\r\n", and the lone '\r' of old Macs, at which the parser ends a line
+/// too. The checker and the parser then see the same lines.
+void unify_line_ends(std::string& text) {
+    std::size_t kept = std::min(text.find('\r'), text.size());
+    for (std::size_t i = kept; i < text.size(); ++i) {
+        const bool pair = text[i] == '\r' && i + 1 < text.size() && text[i + 1] == '\n';
+        if (pair) ++i;
+        text[kept++] = text[i] == '\r' ? '\n' : text[i];
+    }
+    text.resize(kept);
+}
+
 /// End of the statement that begins at `start`; a backslash joins the next line to it.
 std::size_t statement_end(std::string& text, std::size_t start, std::int64_t& line) {
     std::size_t end = start;
@@ -146,11 +174,9 @@ std::size_t statement_end(std::string& text, std::size_t start, std::int64_t& li
         const std::size_t part = end;
         end = text.find('\n', part);
         ++line;
-        std::size_t last = end;
-        if (last > part && text[last - 1] == '\r') --last;
-        if (last == part || text[last - 1] != '\\' || end + 1 == text.size()) return end;
-        for (std::size_t i = last - 1; i <= end; ++i) text[i] = ' ';
-        ++end;
+        if (end == part || text[end - 1] != '\\' || end + 1 == text.size()) return end;
+        text[end - 1] = ' ';
+        text[end++] = ' ';
     }
 }
 
@@ -163,13 +189,14 @@ ObjText read_obj_text(const std::filesystem::path& path) {
         throw Error(ErrorCode::BadFile, "a zero byte stands in it, an .obj file is text",
                     "check what kind of file it is",
                     {.path = path.string(), .offset = static_cast<std::int64_t>(zero)});
+    unify_line_ends(text);
     ObjChecker checker(path.string());
     std::size_t kept = 0; // what is kept moves to the front of the same text
     std::int64_t line = 0;
     for (std::size_t start = 0; start < text.size();) {
         const std::int64_t first_line = line + 1;
         const std::size_t end = statement_end(text, start, line);
-        if (checker.accept(std::string_view(text).substr(start, end - start), first_line)) {
+        if (checker.accept(std::span(text).subspan(start, end - start), first_line)) {
             std::memmove(text.data() + kept, text.data() + start, end - start);
             kept += end - start;
             text[kept++] = '\n';

@@ -13,8 +13,8 @@ struct ObjText {
 };
 
 /// Reads an .obj file and checks what tinyobjloader does not: that numbers are numbers and finite,
-/// and that every index of a face or line names something. Statements that heddle does not use are
-/// dropped here, so that their parsers need not be trusted.
+/// and that every index of a face or line names something. Lines may end with "\n", "\r\n" or "\r".
+/// Statements that heddle does not use are dropped here, so that their parsers need not be trusted.
 /// @throws NotFound, BadFile with the line
 [[nodiscard]] ObjText read_obj_text(const std::filesystem::path& path);
 

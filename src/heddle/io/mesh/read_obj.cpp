@@ -3,6 +3,7 @@
 #include <heddle/base/error.h>
 #include <heddle/io/file/input_file.h>
 #include <heddle/io/mesh/add_parts.h>
+#include <heddle/io/mesh/obj_indices.h>
 #include <heddle/io/mesh/obj_material.h>
 #include <heddle/io/mesh/obj_text.h>
 #include <heddle/io/mesh/tangents.h>
@@ -192,6 +193,7 @@ Geometry read_obj(const fs::path& path) try {
         throw Error(ErrorCode::BadFile, obj.Error(), "export the file again",
                     {.path = path.string()});
     text = {};
+    check_obj_indices(obj.GetAttrib(), obj.GetShapes(), path);
     add_meshes(obj, path, out);
     add_lines(obj, path, out);
     if (out.meshes.empty() && out.curves.empty())
