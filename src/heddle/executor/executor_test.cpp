@@ -1,3 +1,4 @@
+#include <heddle/base/error.h>
 #include <heddle/executor/atomic.h>
 #include <heddle/executor/device.h>
 #include <heddle/executor/host_executor.h>

@@ -55,7 +55,7 @@ BccHeader read_header(ByteReader& file) {
     h.up_axis = file.u8("up axis");
     h.curves = file.u64("curve count");
     h.points = file.u64("point count");
-    file.skip(1, kInfoBytes, "info"); // text by the format, garbage in files of some programs
+    file.skip(1, kInfoBytes, "info"); // text in the format's definition, garbage in some files
     if (h.curves == 0 || h.points == 0) {
         file.fail(h.curves == 0 ? 8 : 16, str("holds no ", h.curves == 0 ? "curves" : "points"),
                   "export it again");
@@ -65,7 +65,7 @@ BccHeader read_header(ByteReader& file) {
     return h;
 }
 
-/// Reads one curve's points behind those that are there; the header's total is never passed.
+/// Appends the points of one curve to the set; the header's total is never exceeded.
 void read_curve(ByteReader& file, std::uint64_t curve, CurveSet& set, ProblemList& problems) {
     const std::uint64_t at = file.offset();
     const std::int64_t signed_count = file.i32("point count of a curve");
@@ -75,7 +75,7 @@ void read_curve(ByteReader& file, std::uint64_t curve, CurveSet& set, ProblemLis
     if (count > set.points.size() - begin) {
         file.fail(at,
                   str("curve ", curve, " has ", count, " points, the header's ", set.points.size(),
-                      " points leave ", set.points.size() - begin),
+                      " points leave it ", set.points.size() - begin),
                   "export it again");
     }
     check_point_count(set.basis, closed, curve, count, at, problems);
@@ -87,14 +87,14 @@ void read_curve(ByteReader& file, std::uint64_t curve, CurveSet& set, ProblemLis
     set.first.push_back(begin + count);
 }
 
-/// Opens the cubic curves whose closing span is an artefact, and returns how many.
+/// Opens the cubic curves whose closing span is an error of the file, and returns how many.
 ///
-/// Two of the 22 yarns of Yuksel's tea_cozy.bcc are marked closed with their ends on opposite sides
-/// of the cozy, 100 times their longest step apart; drawn as marked they cross it as taut strings.
-/// A cubic that is uniform otherwise has no use for such a step; a polyline may have one and is
-/// left alone.
+/// Two of the 22 yarns of Yuksel's tea_cozy.bcc are marked closed although their ends are on
+/// opposite sides of the cozy, 100 times their longest step apart; if drawn as marked, they cross
+/// it as taut strings. An otherwise uniform cubic has no such step; a polyline may have one and is
+/// not changed.
 std::uint64_t open_false_closures(CurveSet& set) {
-    constexpr float kFarthest = 16.0f; // times the longest step; real closures have at most 1.1
+    constexpr float kFarthest = 16.0f; // times the longest step; true closures have at most 1.1
     if (set.basis == Basis::Linear) return 0;
     std::uint64_t opened = 0;
     for (std::size_t c = 0; c < set.curve_count(); ++c) {
@@ -132,7 +132,7 @@ void check_writable(const CurveSet& set) {
     }
 }
 
-/// The header's counts for sets that can stand in one file.
+/// The counts of the header for sets that can be stored in one file.
 BccHeader header_of(std::span<const CurveSet> sets) {
     BccHeader header;
     for (const CurveSet& set : sets) {
@@ -187,9 +187,9 @@ Geometry read_bcc(const std::string& path, const CurveReadOptions& options) {
     Geometry geometry = make_curve_geometry(std::move(set), path, "yarn");
     geometry.notes.push_back(describe_up_axis(header.up_axis));
     if (opened > 0) {
-        geometry.notes.push_back(str(
-            opened, opened == 1 ? " curve is" : " curves are",
-            " marked closed with the ends more than 16 of the longest steps apart, read as open"));
+        geometry.notes.push_back(
+            str(opened, opened == 1 ? " curve is" : " curves are",
+                " marked closed but have ends more than 16 longest steps apart; read as open"));
     }
     note_trailing_bytes(file, geometry);
     settle_yarn_radius(options, geometry);

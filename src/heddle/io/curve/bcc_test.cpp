@@ -18,7 +18,7 @@ std::string header(const std::string& type, std::uint64_t curves, std::uint64_t 
            std::string(40, static_cast<char>(0xfe)); // info: garbage
 }
 
-/// `n` points along x from the origin, behind a count that says `count`.
+/// `n` points along x from the origin, after a count of `count`.
 std::string curve(std::int32_t count, int n, float y = 0.0f) {
     std::string out = bytes(count);
     for (int i = 0; i < n; ++i) out += bytes(static_cast<float>(i), y, 0.0f);
@@ -93,7 +93,7 @@ TEST(Bcc, EveryBasisSurvivesWritingAndReading) {
     }
 }
 
-/// Curves of these lengths whose points count on from `from`.
+/// Curves of these lengths; the coordinates of their points are consecutive numbers from `from`.
 CurveSet counting_set(const std::vector<std::uint64_t>& lengths, float from) {
     CurveSet set;
     set.first = {0};

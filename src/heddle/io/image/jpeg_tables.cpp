@@ -22,8 +22,8 @@ constexpr int kCodeLengths = 16;
 constexpr int kMaxCodes = 256; // a symbol is a byte
 constexpr std::size_t kTables = 4;
 
-/// Walks the segments as stb_image does, which stops at the first that it does not understand: what
-/// it would look at is looked at here before.
+/// Visits the segments as stb_image does, which stops at the first one that it does not understand,
+/// and checks all that stb_image would read.
 class JpegTables {
 public:
     JpegTables(std::span<const std::byte> bytes, const std::string& name)
@@ -52,14 +52,14 @@ private:
                     {.path = name_, .offset = static_cast<std::int64_t>(at)});
     }
 
-    /// The next marker, from which at_ is behind; -1 at the end of the bytes.
+    /// Returns the next marker and moves after it; -1 at the end of the bytes.
     int next_marker() {
         while (at_ < bytes_.size() && byte(at_) != 0xFF) ++at_;
         while (at_ < bytes_.size() && byte(at_) == 0xFF) ++at_;
         return at_ < bytes_.size() ? byte(at_++) : -1;
     }
 
-    /// Passes coded data: a marker in it is a byte 0xFF that is followed by neither 0 nor a restart.
+    /// Skips coded data: a marker in it is a byte 0xFF that is followed by neither 0 nor a restart.
     void skip_scan() {
         for (; at_ + 1 < bytes_.size(); ++at_) {
             if (byte(at_) != 0xFF) continue;
@@ -79,7 +79,7 @@ private:
             const std::size_t start = at;
             const int id = byte(at++);
             int codes = 0;
-            int left = 1; // codes of the length that no shorter one begins
+            int left = 1; // codes of this length without a shorter one as prefix
             for (int length = 1; length <= kCodeLengths; ++length, ++at) {
                 const int count = at < bytes_.size() ? byte(at) : 0;
                 codes += count;
@@ -98,8 +98,9 @@ private:
         }
     }
 
-    /// Length, components, then a component and its two tables each, then first and last coefficient
-    /// and bits: of a progressive file, a first scan of coefficient 0 needs DC, the others AC.
+    /// A scan has its length, the number of components, for each component its number and two
+    /// tables, then the first and last coefficient and bits. A baseline file needs both tables; in
+    /// a progressive file the first scan of coefficient 0 needs DC, others AC.
     void check_scan(std::size_t at, std::size_t end) {
         if (at >= end) return;
         const auto components = static_cast<std::size_t>(byte(at));

@@ -28,7 +28,7 @@ std::string counts(std::initializer_list<std::pair<int, int>> of) {
     return out;
 }
 
-/// A Huffman table with that many symbols, which are all 0.
+/// A Huffman table with this number of symbols, which are all 0.
 std::string table(int id, const std::string& of_bits, std::size_t symbols) {
     return static_cast<char>(id) + of_bits + std::string(symbols, '\0');
 }
@@ -65,14 +65,14 @@ TEST(JpegTables, SoundOnesAreReadWhereverTheyStand) {
     expect_grey(jpeg(kDc + kAc));
     expect_grey(kStart + kAc + kDc + kQuantizers + kFrame + kScan + kEnd);
     expect_grey(jpeg(segment(0xC4, kDc.substr(4) + kAc.substr(4)))); // both in one segment
-    expect_grey(jpeg("\xFF\xFF" + kDc + kAc));                       // bytes that fill
+    expect_grey(jpeg("\xFF\xFF" + kDc + kAc));                       // fill bytes
     expect_grey(jpeg(segment(0xC4, table(0, counts({{2, 1}, {16, 255}}), 256)) + kDc + kAc));
 }
 
 TEST(JpegTables, WhatLooksLikeOneInOtherSegmentsIsNone) {
     const std::string bad = segment(0xC4, table(0, counts({{8, 255}, {9, 255}}), 510));
     expect_grey(jpeg(segment(0xE1, bad) + segment(0xFE, bad) + kDc + kAc));
-    expect_grey(jpeg(kDc + kAc) + bad); // behind the end
+    expect_grey(jpeg(kDc + kAc) + bad); // after the end
 }
 
 TEST(JpegTables, MoreCodesThanATableHoldsAreRefused) {
@@ -87,7 +87,7 @@ TEST(JpegTables, MoreCodesThanATableHoldsAreRefused) {
         expect_refused("a Huffman table has 2040 codes",
                        jpeg(head + segment(0xC4, kDc.substr(4) + table(1, all, 0))));
     }
-    expect_refused("a Huffman table has 2040 codes", // cut short
+    expect_refused("a Huffman table has 2040 codes", // truncated
                    kStart + kQuantizers + kFrame +
                        segment(0xC4, table(0, all, 2040)).substr(0, 30));
     expect_refused("a Huffman table has 2040 codes",
@@ -110,7 +110,7 @@ TEST(JpegTables, AScanThatTakesATableThatIsNotThereIsRefused) {
 TEST(JpegTables, DamagedFilesNeverCrash) {
     const std::string whole = jpeg(kDc + kAc);
     const auto attempt = [](const std::string& bytes) {
-        const std::vector<char> exact(bytes.begin(), bytes.end()); // ends where its block does
+        const std::vector<char> exact(bytes.begin(), bytes.end()); // ends with its memory
         try {
             const Texture image = decode_image(std::as_bytes(std::span{exact}), "a.jpg");
             EXPECT_GT(image.texels.size(), 0u);

@@ -8,7 +8,7 @@
 namespace heddle {
 namespace {
 
-/// Lengths of the arrays that corners index.
+/// The lengths of the arrays that corners index.
 struct Counts {
     std::size_t positions, uvs, normals;
 };

@@ -6,8 +6,9 @@
 
 namespace heddle {
 
-/// Checks that what the parser made of faces and lines names vertices, uv and normals that there are.
-/// The text was checked before (read_obj_text); where the parser understood it otherwise, this ends it.
+/// Checks that the parser's faces and lines use existing vertices, uv and normals. The text was
+/// checked before (read_obj_text); this catches what the parser understood differently.
+/// @param path  for messages
 /// @param path  for the message
 /// @throws BadFile
 void check_obj_indices(const tinyobj::attrib_t& attrib,

@@ -42,7 +42,7 @@ TEST_F(ReadObj, NegativeIndicesContinuedLinesAndCarriageReturnsAreRead) {
     EXPECT_EQ(g.meshes[0].positions.at(2), (Vec3f{1.0f, 1.0f, 0.0f}));
 }
 
-/// `text` with every line end turned into `end`.
+/// `text` with every line break replaced by `end`.
 std::string with_line_ends(const std::string& text, const std::string& end) {
     std::string out;
     for (const char c : text) out += c == '\n' ? end : std::string(1, c);
@@ -140,7 +140,7 @@ TEST_F(ReadObj, MapsAreLoadedAndAlphaIsPutIntoTheColour) {
               (std::vector<std::uint8_t>{10, 20, 30, 77}));
     ASSERT_GE(leaf.normal_map, 0);
     EXPECT_FALSE(g.textures.at(static_cast<std::size_t>(leaf.normal_map)).srgb);
-    const Mesh& mesh = g.meshes.at(0); // flat normals were made for the tangents
+    const Mesh& mesh = g.meshes.at(0); // tangents need normals: flat ones were made
     ASSERT_EQ(mesh.tangents.size(), 3u);
     EXPECT_NEAR(mesh.tangents[0].x, 1.0f, 1e-6f);
     EXPECT_EQ(mesh.tangents[0].w, 1.0f);

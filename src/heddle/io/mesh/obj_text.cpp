@@ -16,7 +16,7 @@ namespace heddle {
 namespace {
 
 constexpr std::string_view kBlank = " \t";
-constexpr int kMaxCorners = 4096; // cutting a polygon takes time quadratic in its corners
+constexpr int kMaxCorners = 4096; // triangulation takes time quadratic in the corners
 
 std::string_view next_token(std::string_view& rest) {
     const std::size_t start = std::min(rest.find_first_not_of(kBlank), rest.size());
@@ -39,7 +39,7 @@ class ObjChecker {
 public:
     explicit ObjChecker(std::string path) : path_(std::move(path)) {}
 
-    /// True where the statement is one that the parser should see, as it is afterwards.
+    /// True if the parser needs the statement, which may be changed.
     bool accept(std::span<char> statement, std::int64_t line) {
         line_ = line;
         std::string_view rest(statement.data(), statement.size());
@@ -62,7 +62,7 @@ public:
         return keyword == "usemtl";
     }
 
-    /// Indices that count from the start may name what comes later: looked at when all is read.
+    /// Positive indices may refer to later lines: checked at the end of the file.
     void finish() {
         for (std::size_t kind = 0; kind < 3; ++kind) {
             if (largest_[kind].index <= count_[kind]) continue;
@@ -92,7 +92,7 @@ private:
             const std::string_view token = next_token(rest);
             if (!is_finite_number(token))
                 fail(str(kNames[kind], " ", count_[kind], " has '", token.substr(0, 40), "' where ",
-                         "a finite number must stand"));
+                         "a finite number is needed"));
         }
         return true;
     }
@@ -108,8 +108,8 @@ private:
                      kMaxCorners));
     }
 
-    /// Takes away the slash of `1/` and `1/2/`: the parser would look for an index behind it, and find
-    /// the next corner's.
+    /// Removes the slash of `1/` and `1/2/`: the parser would look for an index after it, and find
+    /// that of the next corner.
     static void blank_last_slashes(std::span<char> statement) {
         for (std::size_t i = 0; i < statement.size(); ++i) {
             const bool last = i + 1 == statement.size() ||
@@ -137,7 +137,7 @@ private:
             if (stop == end) return;
             if (*stop != '/') break;
             at = stop + 1;
-            if (at == end && kind != kNormal) return; // `1/` and `1/2/` are seen in the wild
+            if (at == end && kind != kNormal) return; // some files have `1/` and `1/2/`
         }
         fail(str("a ", what, " has the corner '", token.substr(0, 40), "', expected v/vt/vn"));
     }
@@ -145,7 +145,7 @@ private:
     void note_index(std::size_t kind, std::int64_t index) {
         if (index < 0 && -index > count_[kind])
             fail(str("names ", kNames[kind], " ", index, ", and only ", count_[kind],
-                     " stand before it"));
+                     " come before it"));
         if (index > largest_[kind].index) largest_[kind] = {index, line_};
     }
 
@@ -155,8 +155,8 @@ private:
     std::array<Largest, 3> largest_{};
 };
 
-/// Makes every line end one '\n': "\r\n", and the lone '\r' of old Macs, at which the parser ends a line
-/// too. The checker and the parser then see the same lines.
+/// Makes every line break one '\n': "\r\n", and the single '\r' of old Macs, at which the parser
+/// ends a line too. The checks and the parser then find the same lines.
 void unify_line_ends(std::string& text) {
     std::size_t kept = std::min(text.find('\r'), text.size());
     for (std::size_t i = kept; i < text.size(); ++i) {
@@ -167,7 +167,7 @@ void unify_line_ends(std::string& text) {
     text.resize(kept);
 }
 
-/// End of the statement that begins at `start`; a backslash joins the next line to it.
+/// The end of the statement that begins at `start`; a backslash joins the next line to it.
 std::size_t statement_end(std::string& text, std::size_t start, std::int64_t& line) {
     std::size_t end = start;
     while (true) {
@@ -184,14 +184,14 @@ std::size_t statement_end(std::string& text, std::size_t start, std::int64_t& li
 
 ObjText read_obj_text(const std::filesystem::path& path) {
     std::string text = read_whole_file(path.string(), kAnySize);
-    text.push_back('\n'); // every statement now ends with one
+    text.push_back('\n'); // so that every statement ends with one
     if (const std::size_t zero = text.find('\0'); zero != std::string::npos)
         throw Error(ErrorCode::BadFile, "a zero byte stands in it, an .obj file is text",
                     "check what kind of file it is",
                     {.path = path.string(), .offset = static_cast<std::int64_t>(zero)});
     unify_line_ends(text);
     ObjChecker checker(path.string());
-    std::size_t kept = 0; // what is kept moves to the front of the same text
+    std::size_t kept = 0; // statements that are kept move to the front
     std::int64_t line = 0;
     for (std::size_t start = 0; start < text.size();) {
         const std::int64_t first_line = line + 1;

@@ -24,7 +24,7 @@ void put(const std::string& path, const std::string& bytes) {
     std::ofstream(path, std::ios::binary) << bytes;
 }
 
-/// The message of the Error that reading throws; empty when it reads.
+/// The message of the Error that reading throws; empty if there is none.
 std::string read_error(const std::string& path) {
     try {
         (void)read_vdb(path);
@@ -34,7 +34,7 @@ std::string read_error(const std::string& path) {
     }
 }
 
-/// Writes a helix that `change` has broken, and returns what reading it says.
+/// Writes a helix that `change` has broken, and returns the message of reading it.
 std::string error_of(const std::function<void(VoxelGrid&)>& change) {
     VoxelGrid grid = testing::make_helix(10.0, 2.0, 1);
     change(grid);
@@ -46,7 +46,7 @@ std::string error_of(const std::function<void(VoxelGrid&)>& change) {
     return message;
 }
 
-/// One lobe a voxel, all in one 128^3 node: a file of some 50 kB.
+/// One lobe per voxel, all in one node of 128^3: a file of about 50 kB.
 VoxelGrid make_small() {
     testing::VoxelMap voxels;
     for (int i = 0; i < 600; ++i) {

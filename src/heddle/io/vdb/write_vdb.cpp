@@ -19,8 +19,8 @@ namespace {
 
 constexpr std::size_t kBufferBytes = std::size_t{4} << 20;
 
-/// Scale and half a voxel's move: an index is the voxel's centre. Read from its own bytes, as a file's
-/// is: the constructors take voxels below 1e-5 scene units for flat, and patterns in metres have such.
+/// Scale by the voxel size, then move by half a voxel: an index is the voxel's centre. OpenVDB's
+/// map constructors reject voxel sizes below 1e-5, which patterns in metres have: so deserialize.
 openvdb::math::Transform::Ptr make_transform(const Lattice& lattice) {
     using namespace openvdb::math;
     const openvdb::Vec3d h(lattice.voxel_size.x, lattice.voxel_size.y, lattice.voxel_size.z);
@@ -61,7 +61,7 @@ constexpr TreeType kTreeOf<std::int32_t>{"Tree_int32_5_4_3", 4};
 template <>
 constexpr TreeType kTreeOf<std::int64_t>{"Tree_int64_5_4_3", 8};
 
-/// DirectionValues as half floats: half the bytes, and still finer than the lobe's eight bits.
+/// DirectionValues as half floats: half the bytes, and still finer than the eight bits of a lobe.
 struct HalfDirectionValues : DirectionValues {
     using DirectionValues::DirectionValues;
     using Value = HalfDirection;
@@ -71,7 +71,7 @@ struct HalfDirectionValues : DirectionValues {
     }
 };
 
-/// A level to be written and what its walk found.
+/// A level to write, and the table of its leaves.
 struct Level {
     const VoxelSource& source;
     LeafTable table;
@@ -82,7 +82,7 @@ struct Level {
     }
 };
 
-/// Writes grids into one file one after the other; openvdb::io::File takes them all at once.
+/// Writes grids into one file, one at a time; openvdb::io::File needs them all at once.
 class Archive : public openvdb::io::Archive {
 public:
     Archive(std::ostream& out, Progress& progress) : out_(out), progress_(progress) {
@@ -96,7 +96,7 @@ public:
         write_raw(out_, grids);
     }
 
-    /// @param leaves  those with a voxel that is active in the grid, with the masks of such
+    /// @param leaves  those with a voxel that is active in the grid, with the masks of these voxels
     template <typename Values>
     void write(const Level& level,
                const std::string& name,
@@ -153,8 +153,7 @@ private:
         return GridBase::gridClassToString(openvdb::GRID_FOG_VOLUME);
     }
 
-    /// What openvdb::io::File would say of a grid, without the second compression that it does to
-    /// find out.
+    /// The metadata of openvdb::io::File, without its extra compression to measure sizes.
     static openvdb::MetaMap
     describe(const Level& level, std::span<const LeafRef> leaves, std::size_t value_bytes) {
         std::int64_t voxels = 0;
@@ -179,7 +178,7 @@ private:
     Progress& progress_;
 };
 
-/// One level's grids.
+/// Writes the grids of one level.
 class LevelWriter {
 public:
     LevelWriter(Archive& archive, const Level& level) : archive_(archive), level_(level) {}
@@ -197,7 +196,7 @@ public:
         }
     }
 
-    /// Grids that write() writes.
+    /// The number of grids that write() writes.
     [[nodiscard]] static int count(const Level& level) {
         int grids = 1 + (level.table.fiber_voxels > 0) + (level.table.surface_voxels > 0);
         for_each_grid(level.grids(), [&](const std::string&, const auto&) { ++grids; });
@@ -205,7 +204,7 @@ public:
     }
 
 private:
-    /// For programs that know nothing of the others.
+    /// Writes the density and directions, for programs that do not know the other grids.
     void write_derived() {
         const VoxelGridInfo& info = level_.info();
         const auto name = [&](GridKind kind) { return grid_name(kind, 0, info.level); };
@@ -228,7 +227,7 @@ private:
         return select(values);
     }
 
-    /// Holds until the next call.
+    /// The result is valid until the next call.
     template <typename Values>
     std::span<const LeafRef> select(const Values& values) {
         selected_ = select_leaves(level_.source, level_.table.leaves,
@@ -265,7 +264,7 @@ openvdb::MetaMap make_metadata(std::span<const Level> levels) {
     return metadata;
 }
 
-/// Throws unless the levels are those of one lattice, finest first.
+/// Throws unless the levels share one lattice and are in order, finest first.
 void check_levels(std::span<const VoxelSource* const> levels) {
     const auto fail = [](const std::string& what) {
         throw Error(ErrorCode::Internal, "write vdb: " + what);
@@ -305,7 +304,7 @@ void write_grids(std::ostream& out, std::span<const Level> levels, Progress& pro
 void write_sources(std::span<const VoxelSource* const> sources,
                    const std::string& path,
                    Progress& progress) {
-    OutputFile file(path); // first: an output that cannot be written is said before the work
+    OutputFile file(path); // first: an output that cannot be written is reported early
     check_levels(sources);
     openvdb::initialize();
     std::vector<Level> levels;
@@ -313,7 +312,7 @@ void write_sources(std::span<const VoxelSource* const> sources,
         levels.push_back({*source, make_leaf_table(*source, progress)});
     }
     try {
-        std::vector<char> buffer(kBufferBytes); // outlives the stream
+        std::vector<char> buffer(kBufferBytes); // must outlive the stream
         std::ofstream out;
         out.exceptions(std::ios::failbit | std::ios::badbit);
         out.rdbuf()->pubsetbuf(buffer.data(), static_cast<std::streamsize>(buffer.size()));
