@@ -7,15 +7,15 @@
 
 namespace heddle::viewer {
 
-/// What is to be voxelized, and how.
+/// The part that is voxelized, and how.
 struct VoxelRequest {
     Geometry geometry;
     VoxelizeOptions options;
-    bool raster = false; ///< slices drawn by OpenGL, in a context of its own; else fibers
+    bool raster = false; ///< from slices drawn by OpenGL, in a context of its own; else from fibers
     raster::RasterOptions raster_options;
 };
 
-/// Voxels with all their levels.
+/// Voxelizes it, and builds all levels.
 /// @throws Error  as plan_voxelize, voxelize and raster::voxelize_slices
 [[nodiscard]] JobResult voxelize_seen(const VoxelRequest& request, Progress& progress);
 
