@@ -2,7 +2,7 @@
 
 #include <heddle/base/error.h>
 #include <heddle/base/parallel.h>
-#include <heddle/render/clip.h>
+#include <heddle/render/volume/clip.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 #include <heddle/base/random.h>
 #include <heddle/geom/affine.h>
 #include <heddle/geom/bounds.h>
-#include <heddle/render/ray.h>
-#include <heddle/render/walk.h>
+#include <heddle/render/volume/ray.h>
+#include <heddle/render/volume/walk.h>
 #include <heddle/scatter/scatterer.h>
 #include <heddle/voxel/flake_field.h>
 

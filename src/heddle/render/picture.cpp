@@ -1,5 +1,6 @@
 #include <heddle/render/picture.h>
 
+#include <heddle/geom/color.h>
 #include <heddle/sggx/eigen.h>
 
 #include <algorithm>
@@ -104,20 +105,13 @@ std::vector<PictureChannel> channels_of(const Picture& picture, bool all) {
     return out;
 }
 
-std::uint8_t encode_srgb(double x) {
-    const double c = x > 0.0 ? std::min(x, 1.0) : 0.0; // NaN gives 0
-    const double s = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055;
-    return static_cast<std::uint8_t>(s * 255.0 + 0.5);
-}
-
 std::vector<std::uint8_t> to_srgb8(const Picture& picture, double exposure) {
     std::vector<std::uint8_t> out;
     out.reserve(4 * picture.pixels.size());
     const double gain = std::exp2(exposure);
     for (const PixelSums& p : picture.pixels) {
         const double scale = p.samples == 0 ? 0.0 : 1.0 / p.samples;
-        for (const double c : {p.red, p.green, p.blue})
-            out.push_back(encode_srgb(c * scale * gain));
+        for (const double c : {p.red, p.green, p.blue}) out.push_back(srgb_byte(c * scale * gain));
         out.push_back(255);
     }
     return out;

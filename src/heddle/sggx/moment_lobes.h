@@ -177,20 +177,4 @@ HEDDLE_INLINE int compact_lobes(std::span<T> lobes, const LobeMerge* merges, int
     return static_cast<int>(left);
 }
 
-/// Reduces pooled lobes to at most `keep` by the method `moments`, and further while two are closer
-/// than `same`. Lobes of different materials merge only if no two of one material are left.
-///
-/// @param lobes   0 .. kMaxPool, weights > 0; those left are at the front, in order
-/// @param keep    1 or more
-/// @param merges  receives size - return value merges, with the numbers of `lobes` before the call
-/// @param same    0: merges down to `keep` and no further
-/// @return        how many are left
-HEDDLE_HD inline int
-reduce_lobes(std::span<DirectionSums> lobes, int keep, LobeMerge* merges, float same = kSameLobe) {
-    const int count = static_cast<int>(lobes.size());
-    if (count < 2) return count;
-    MomentLobes policy(lobes);
-    return compact_lobes(lobes, merges, agglomerate(count, keep, policy, merges, same));
-}
-
 } // namespace heddle

@@ -3,6 +3,7 @@
 #include <heddle/sggx/mixture_error.h>
 #include <heddle/sggx/moments.h>
 #include <heddle/sggx/test_lobe.h>
+#include <heddle/sggx/test_reduce.h>
 
 #include <gtest/gtest.h>
 
@@ -42,7 +43,7 @@ Pool random_pool(int count, std::uint32_t materials, CounterRandom& random) {
 /// Reduces the pool and removes the lobes that merged into others.
 std::vector<LobeMerge> reduce(Pool& pool, int keep, float same = 0.0f) {
     std::vector<LobeMerge> merges(kMaxPool);
-    const int left = reduce_lobes(pool, keep, merges.data(), same);
+    const int left = test::reduce_lobes(pool, keep, merges.data(), same);
     merges.resize(pool.size() - static_cast<std::size_t>(left));
     pool.resize(static_cast<std::size_t>(left));
     return merges;
@@ -181,9 +182,9 @@ TEST(MomentLobes, DistanceOfFiberAndSurfaceIsTakenInTheHeaviersKind) {
 
 TEST(MomentLobes, OneLobeOrNoneIsLeftAlone) {
     Pool pool;
-    EXPECT_EQ(reduce_lobes(pool, 3, nullptr), 0);
+    EXPECT_EQ(test::reduce_lobes(pool, 3, nullptr), 0);
     pool = {needle({1, 2, 3}, 1.0)};
-    EXPECT_EQ(reduce_lobes(pool, 3, nullptr), 1);
+    EXPECT_EQ(test::reduce_lobes(pool, 3, nullptr), 1);
 }
 
 } // namespace

@@ -182,18 +182,4 @@ private:
     std::vector<Drawn> drawn_;
 };
 
-/// Reduces pooled lobes to at most `keep` by the method `wasserstein`, as reduce_lobes does.
-///
-/// Takes about 15 ms for 24 lobes.
-/// @param seed  seed of the samples
-inline int reduce_lobes_by_wasserstein(std::span<DirectionSums> lobes,
-                                       int keep,
-                                       std::uint64_t seed,
-                                       LobeMerge* merges) {
-    const int count = static_cast<int>(lobes.size());
-    if (count <= keep) return count;
-    WassersteinLobes policy(lobes, seed);
-    return compact_lobes(lobes, merges, agglomerate(count, keep, policy, merges));
-}
-
 } // namespace heddle

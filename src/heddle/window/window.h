@@ -10,8 +10,6 @@ namespace heddle::window {
 struct WindowOptions {
     std::int32_t width = 1280; ///< pixels
     std::int32_t height = 800;
-    /// for tests: the context counts as lost after this many frames, once; 0: never
-    std::int64_t lose_after = 0;
 };
 
 /// Response figures of a window.

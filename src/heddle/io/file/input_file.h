@@ -60,7 +60,6 @@ public:
     [[nodiscard]] std::uint64_t remaining() const { return size_bytes() - offset_; }
 
     [[nodiscard]] std::uint8_t u8(const char* what) { return value<std::uint8_t>(what); }
-    [[nodiscard]] std::uint16_t u16(const char* what) { return value<std::uint16_t>(what); }
     [[nodiscard]] std::uint32_t u32(const char* what) { return value<std::uint32_t>(what); }
     [[nodiscard]] std::int32_t i32(const char* what) { return value<std::int32_t>(what); }
     [[nodiscard]] std::uint64_t u64(const char* what) { return value<std::uint64_t>(what); }

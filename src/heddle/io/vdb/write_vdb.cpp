@@ -44,17 +44,22 @@ openvdb::Vec3i to_vdb(Vec3i v) {
 
 using HalfDirection = std::array<openvdb::math::half, 3>;
 
-/// The standard grid that stores values of a type; it never contains a voxel.
-template <typename Value>
-struct GridOf;
+/// The standard tree that stores values of a type, by its name in a file and the size of its values.
+/// Grids of OpenVDB's own are never made: their templates alone took a minute to compile.
+struct TreeType {
+    const char* name;
+    std::size_t value_bytes;
+};
+template <typename Stored>
+constexpr TreeType kTreeOf{};
 template <>
-struct GridOf<float> : std::type_identity<openvdb::FloatGrid> {};
+constexpr TreeType kTreeOf<float>{"Tree_float_5_4_3", 4};
 template <>
-struct GridOf<HalfDirection> : std::type_identity<openvdb::Vec3SGrid> {};
+constexpr TreeType kTreeOf<HalfDirection>{"Tree_vec3s_5_4_3", 12};
 template <>
-struct GridOf<std::int32_t> : std::type_identity<openvdb::Int32Grid> {};
+constexpr TreeType kTreeOf<std::int32_t>{"Tree_int32_5_4_3", 4};
 template <>
-struct GridOf<std::int64_t> : std::type_identity<openvdb::Int64Grid> {};
+constexpr TreeType kTreeOf<std::int64_t>{"Tree_int64_5_4_3", 8};
 
 /// DirectionValues as half floats: half the bytes, and still finer than the eight bits of a lobe.
 struct HalfDirectionValues : DirectionValues {
@@ -111,29 +116,31 @@ public:
     }
 
 private:
+    using GridBase = openvdb::GridBase;
+
     template <typename Stored>
     void write_leaves(const Level& level,
                       const std::string& name,
                       std::span<const LeafRef> leaves,
                       LeafGather<Stored> gather) {
-        using GridT = typename GridOf<Stored>::type;
-        using Value = typename GridT::ValueType;
         constexpr bool kHalf = std::is_same_v<Stored, HalfDirection>;
-        static_assert(sizeof(Value) == sizeof(Stored) * (kHalf ? 2 : 1));
-        const typename GridT::Ptr grid = GridT::create();
-        describe(*grid, level, leaves, sizeof(Value));
-        grid->setName(name);
-        if (std::is_same_v<Stored, float>) grid->setGridClass(openvdb::GRID_FOG_VOLUME);
-        grid->setSaveFloatAsHalf(kHalf);
-        openvdb::io::GridDescriptor place(name, grid->type(), kHalf);
+        constexpr TreeType kTree = kTreeOf<Stored>;
+        static_assert(kTree.value_bytes == sizeof(Stored) * (kHalf ? 2 : 1));
+        openvdb::MetaMap about = describe(level, leaves, kTree.value_bytes);
+        about.insertMeta(GridBase::META_GRID_NAME, openvdb::StringMetadata(name));
+        if (std::is_same_v<Stored, float>) {
+            about.insertMeta(GridBase::META_GRID_CLASS, openvdb::StringMetadata(fog_volume()));
+        }
+        about.insertMeta(GridBase::META_SAVE_HALF_FLOAT, openvdb::BoolMetadata(kHalf));
+        openvdb::io::GridDescriptor place(name, kTree.name, kHalf);
         place.writeHeader(out_);
         const auto offsets = out_.tellp();
         place.writeStreamPos(out_);
         place.setGridPos(out_.tellp());
-        setGridCompression(out_, *grid);
-        grid->writeMeta(out_);
-        grid->writeTransform(out_);
-        write_topology<Value>(out_, leaves, kHalf);
+        write_raw(out_, compression());
+        about.writeMeta(out_);
+        make_transform(level.info().lattice)->write(out_);
+        write_topology<std::array<char, kTree.value_bytes>>(out_, leaves, kHalf);
         place.setBlockPos(out_.tellp());
         write_buffers<Stored>(out_, level.source, leaves, gather, progress_);
         place.setEndPos(out_.tellp());
@@ -142,27 +149,29 @@ private:
         place.seekToEnd(out_);
     }
 
-    /// Adds the metadata of openvdb::io::File, without its extra compression to measure sizes.
-    static void describe(openvdb::GridBase& grid,
-                         const Level& level,
-                         std::span<const LeafRef> leaves,
-                         std::size_t value_bytes) {
-        grid.setTransform(make_transform(level.info().lattice));
+    static std::string fog_volume() {
+        return GridBase::gridClassToString(openvdb::GRID_FOG_VOLUME);
+    }
+
+    /// The metadata of openvdb::io::File, without its extra compression to measure sizes.
+    static openvdb::MetaMap
+    describe(const Level& level, std::span<const LeafRef> leaves, std::size_t value_bytes) {
         std::int64_t voxels = 0;
         for (const LeafRef& leaf : leaves) {
             for (std::uint64_t w : leaf.active) voxels += std::popcount(w);
         }
-        using openvdb::GridBase;
+        openvdb::MetaMap about;
         const auto bytes = static_cast<std::int64_t>(leaves.size() * (96 + 512 * value_bytes));
-        grid.insertMeta(GridBase::META_FILE_VOXEL_COUNT, openvdb::Int64Metadata(voxels));
-        grid.insertMeta(GridBase::META_FILE_MEM_BYTES, openvdb::Int64Metadata(bytes));
-        grid.insertMeta(GridBase::META_FILE_COMPRESSION,
-                        openvdb::StringMetadata("blosc + active values"));
-        if (voxels == 0) return;
-        grid.insertMeta(GridBase::META_FILE_BBOX_MIN,
-                        openvdb::Vec3IMetadata(to_vdb(level.table.lo)));
-        grid.insertMeta(GridBase::META_FILE_BBOX_MAX,
-                        openvdb::Vec3IMetadata(to_vdb(level.table.hi)));
+        about.insertMeta(GridBase::META_FILE_VOXEL_COUNT, openvdb::Int64Metadata(voxels));
+        about.insertMeta(GridBase::META_FILE_MEM_BYTES, openvdb::Int64Metadata(bytes));
+        about.insertMeta(GridBase::META_FILE_COMPRESSION,
+                         openvdb::StringMetadata("blosc + active values"));
+        if (voxels == 0) return about;
+        about.insertMeta(GridBase::META_FILE_BBOX_MIN,
+                         openvdb::Vec3IMetadata(to_vdb(level.table.lo)));
+        about.insertMeta(GridBase::META_FILE_BBOX_MAX,
+                         openvdb::Vec3IMetadata(to_vdb(level.table.hi)));
+        return about;
     }
 
     std::ostream& out_;

@@ -1,5 +1,5 @@
-#include <heddle/render/test_volume.h>
-#include <heddle/render/volume_level.h>
+#include <heddle/render/volume/test_volume.h>
+#include <heddle/render/volume/volume_level.h>
 
 #include <gtest/gtest.h>
 

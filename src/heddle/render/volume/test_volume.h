@@ -1,7 +1,7 @@
 #pragma once
 
 #include <heddle/base/random.h>
-#include <heddle/render/volume.h>
+#include <heddle/render/volume/volume.h>
 #include <heddle/voxel/test_grid.h>
 
 #include <cmath>

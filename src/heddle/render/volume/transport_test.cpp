@@ -1,5 +1,6 @@
-#include <heddle/render/test_volume.h>
-#include <heddle/render/transport.h>
+#include <heddle/render/volume/swept_depth.h>
+#include <heddle/render/volume/test_volume.h>
+#include <heddle/render/volume/transport.h>
 
 #include <heddle/base/error.h>
 

@@ -1,4 +1,4 @@
-#include <heddle/render/transport.h>
+#include <heddle/render/volume/transport.h>
 
 #include <heddle/base/error.h>
 #include <heddle/base/nearest_name.h>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <heddle/base/vec.h>
-#include <heddle/render/volume_level.h>
+#include <heddle/render/volume/volume_level.h>
 
 #include <cmath>
 #include <cstdint>

@@ -1,5 +1,5 @@
-#include <heddle/render/test_volume.h>
-#include <heddle/render/walk.h>
+#include <heddle/render/volume/test_volume.h>
+#include <heddle/render/volume/walk.h>
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include <heddle/render/volume_level.h>
+#include <heddle/render/volume/volume_level.h>
 
 #include <heddle/base/error.h>
 

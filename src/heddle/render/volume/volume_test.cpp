@@ -1,4 +1,4 @@
-#include <heddle/render/test_volume.h>
+#include <heddle/render/volume/test_volume.h>
 #include <heddle/sggx/moments.h>
 
 #include <gtest/gtest.h>

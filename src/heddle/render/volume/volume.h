@@ -3,10 +3,9 @@
 #include <heddle/base/random.h>
 #include <heddle/geom/affine.h>
 #include <heddle/geom/bounds.h>
-#include <heddle/render/ray.h>
-#include <heddle/render/transport.h>
-#include <heddle/render/volume_level.h>
-#include <heddle/render/walk.h>
+#include <heddle/render/volume/ray.h>
+#include <heddle/render/volume/transport.h>
+#include <heddle/render/volume/volume_level.h>
 #include <heddle/scatter/scatterer.h>
 
 #include <cstdint>
@@ -15,6 +14,8 @@
 #include <vector>
 
 namespace heddle {
+
+class RayPassage;
 
 /// The levels of an object, finest first; a level that a picture does not need is null.
 using VolumePyramid = std::vector<std::shared_ptr<const VolumeLevel>>;
@@ -81,13 +82,16 @@ public:
     [[nodiscard]] const VolumePyramid& pyramid() const { return pyramid_; }
 
 private:
-    /// Calls note(level, step) where the walker stops.
+    /// Calls note(level, step) where the ray stops.
     template <typename Note>
     void walk(const Ray& ray,
+              Transport transport,
               const LevelChoice& choice,
-              TransportWalker& walker,
+              RayPassage& passage,
               const Note& note) const;
     [[nodiscard]] int usable_level(int level) const;
+    /// Turns what was drawn in the object's space. @param normal  the axis is one; else a tangent
+    void turn_to_world(bool normal, Scatterer& out) const;
 
     VolumePyramid pyramid_;
     Affine to_world_, to_object_;
