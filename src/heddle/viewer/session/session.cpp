@@ -170,11 +170,15 @@ void Session::voxelize() {
     Geometry geometry = edited(*subject_.geometry, settings_.yarns);
     multiply_fibers(geometry, settings_.slices.opacity);
     const double edge = settings_.orbit.pixel(picture_->fine().height()) * settings_.voxels.edge_px;
-    VoxelizeOptions options;
-    options.voxel_size = {edge, edge, edge};
-    options.footprints = 4; // transport through fibers needs them: docs/transport.md
+    job::VoxelizeJobOptions options;
+    options.voxel_size = Vec3d{edge, edge, edge};
     options.seed = subject_.seed;
     options.spool_dir = subject_.folder;
+    options.device = job::DeviceChoice::Cpu;
+    if (settings_.voxels.raster) {
+        options.backend = job::Backend::Raster;
+        options.composition = settings_.voxels.composition;
+    }
     if (settings_.voxels.only_seen) {
         const Bounds seen = seen_bounds(geometry, settings_.orbit.camera(), aspect());
         if (seen.empty()) {
@@ -183,11 +187,9 @@ void Session::voxelize() {
         }
         options.bounds = seen;
     }
-    start([request = VoxelRequest{.geometry = std::move(geometry),
-                                  .options = std::move(options),
-                                  .raster = settings_.voxels.raster,
-                                  .raster_options = {.composition = settings_.voxels.composition}}](
-              Progress& progress) { return voxelize_seen(request, progress); });
+    start([request = VoxelRequest{std::move(geometry), std::move(options)}](Progress& progress) {
+        return voxelize_seen(request, progress);
+    });
 }
 
 void Session::stop_job() {
