@@ -4,6 +4,7 @@
 A room stands below all rooms that it may include. A line joins it to those that no other line leads to. The colours are the
 groups of the table. With --check nothing is written: the exit code says whether the file is what would be written.
 """
+import argparse
 import pathlib
 import sys
 
@@ -166,16 +167,17 @@ def draw(below, group_of, groups):
     return "\n".join(out) + "\n</svg>\n"
 
 
-def main(arguments):
-    check = "--check" in arguments
-    names = [a for a in arguments if a != "--check"]
-    path = pathlib.Path(names[0]) if names else ROOT / "docs/images/rooms.svg"
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("picture", nargs="?", type=pathlib.Path, default=ROOT / "docs/images/rooms.svg")
+    parser.add_argument("--check", action="store_true", help="only compare with the picture that is there")
+    arguments = parser.parse_args()
     text = draw(*read_table(ROOT / "cmake/layers.txt"))
-    if not check:
-        path.write_text(text)
-    elif not path.exists() or path.read_text() != text:
-        sys.exit(f"{path}: not what cmake/layers.txt gives; run python3 tools/draw_rooms.py")
+    if not arguments.check:
+        arguments.picture.write_text(text)
+    elif not arguments.picture.exists() or arguments.picture.read_text() != text:
+        sys.exit(f"{arguments.picture}: not what cmake/layers.txt gives; run python3 tools/draw_rooms.py")
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main()
