@@ -11,7 +11,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 BOX_WIDTH, BOX_HEIGHT, GAP, ROW, MARGIN, LINE_GAP = 104, 26, 14, 62, 20, 12
 ORDER_SWEEPS, STRAIGHTEN_SWEEPS = 60, 600
-COLORS = ["#cfe3f7", "#d9efd0", "#fde8b8", "#f6d0d8", "#e2d6f3", "#d8dde2"]
+COLORS = ["#cfe3f7", "#d9efd0", "#fde8b8", "#f6d0d8", "#d3eeee", "#e2d6f3", "#d8dde2"]
 
 
 def read_table(path):
@@ -128,10 +128,12 @@ def straighten(rows, pieces):
     above, below = neighbours_of(pieces)
     x = {node: place for row in rows for node, place in zip(row, offsets(row))}
     for _ in range(STRAIGHTEN_SWEEPS):
+        middle = sum(x.values()) / len(x)  # pulls a little, so that parts with few lines do not drift away
         for row in rows + rows[::-1]:
             wanted = {}
             for node in row:
                 near = [(x[n], 1 if isinstance(n, str) else 30) for n in above.get(node, []) + below.get(node, [])]
+                near.append((middle, 0.3))
                 weight = sum(w for _, w in near)
                 wanted[node] = sum(place * w for place, w in near) / weight
             x.update(spread(row, wanted))
