@@ -84,7 +84,7 @@ Finest load(const std::string& path) {
     for_each_voxel(*grid, [&](Vec3i at, const VoxelBlock& b, std::size_t v, std::size_t l) {
         std::vector<DirectionSums> lobes;
         for (std::size_t k = l; k < l + b.lobe_count[v]; ++k) {
-            const Material& material = grid->about.materials[b.lobes[k].material];
+            const Material& material = grid->info().materials[b.lobes[k].material];
             lobes.push_back(
                 sums_of(b.lobes[k], b.coverage[v], material.kind == MaterialKind::Surface));
         }

@@ -88,9 +88,9 @@ std::vector<std::int64_t> bytes_of(const std::vector<GridSummary>& grids) {
 /// Bytes in a file of the levels above 0, which are written for it under an empty level 0.
 std::vector<std::int64_t> weigh(VoxelLevels levels, Progress& progress) {
     auto finest = std::make_unique<VoxelGrid>();
-    finest->about = levels[0]->info();
-    finest->about.fields.masks = false;
-    finest->about.voxel_count = finest->about.lobe_count = 0;
+    finest->info() = levels[0]->info();
+    finest->info().fields.masks = false;
+    finest->info().voxel_count = finest->info().lobe_count = 0;
     levels[0] = std::move(finest);
     const ScratchFolder folder;
     write_output([&] { write_vdb(levels, folder.file(), progress); });

@@ -117,19 +117,19 @@ struct Workspace {
 
 std::unique_ptr<VoxelGrid> make_grid(const VoxelGridInfo& info, std::vector<VoxelBlock> blocks) {
     auto grid = std::make_unique<VoxelGrid>();
-    grid->about = info;
-    grid->about.voxel_count = 0;
-    grid->about.lobe_count = 0;
+    grid->set_info(info);
+    grid->info().voxel_count = 0;
+    grid->info().lobe_count = 0;
     for (const VoxelBlock& b : blocks) {
-        grid->about.voxel_count += static_cast<std::int64_t>(b.coverage.size());
-        grid->about.lobe_count += static_cast<std::int64_t>(b.lobes.size());
+        grid->info().voxel_count += static_cast<std::int64_t>(b.coverage.size());
+        grid->info().lobe_count += static_cast<std::int64_t>(b.lobes.size());
     }
     grid->blocks = std::move(blocks);
     return grid;
 }
 
-bool has_correlation(const VoxelGrid& grid) {
-    return std::any_of(grid.blocks.begin(), grid.blocks.end(),
+bool has_correlation(const std::vector<VoxelBlock>& blocks) {
+    return std::any_of(blocks.begin(), blocks.end(),
                        [](const VoxelBlock& b) { return !b.correlation.empty(); });
 }
 
@@ -329,13 +329,13 @@ VoxelLevels LevelBuilder::finish(std::unique_ptr<VoxelSource> level0) {
     levels.push_back(std::move(level0));
     const int needed = s.box.lo.x > s.box.hi.x ? 0 : level_count(s.box.lo, s.box.hi);
     const int top = std::min(s.top, needed);
-    auto* finest = dynamic_cast<VoxelGrid*>(levels[0].get());
-    if (finest != nullptr && !has_correlation(*finest)) fill_shared(0, finest->blocks);
+    std::vector<VoxelBlock>* const finest = levels[0]->blocks_in_memory();
+    if (finest != nullptr && !has_correlation(*finest)) fill_shared(0, *finest);
     for (int l = 1; l <= top; ++l) {
         std::unique_ptr<VoxelSource> made;
         if (l <= kWholeLeafLevel) {
             made = s.whole[static_cast<std::size_t>(l - 1)]->finish();
-            if (auto* grid = dynamic_cast<VoxelGrid*>(made.get())) fill_shared(l, grid->blocks);
+            if (auto* const blocks = made->blocks_in_memory()) fill_shared(l, *blocks);
         } else {
             const auto at = static_cast<std::size_t>(l - kWholeLeafLevel - 1);
             fill_shared(l, s.pieces[at]);
@@ -344,12 +344,13 @@ VoxelLevels LevelBuilder::finish(std::unique_ptr<VoxelSource> level0) {
         levels.push_back(std::move(made));
     }
     for (std::size_t l = 0; l < levels.size(); ++l) {
-        VoxelGridInfo& info = levels[l]->about;
+        VoxelGridInfo info = levels[l]->info();
         info.level = static_cast<std::int32_t>(l);
         info.lattice = lattice_of_level(s.info.lattice, static_cast<int>(l));
         info.lod = top > 0 ? name_of(options_.method) : "";
         if (l > 0) info.fields = s.options.fields;
         info.max_lobes = l > 0 ? s.options.merge.max_lobes : info.max_lobes;
+        levels[l]->set_info(std::move(info));
     }
     return levels;
 }

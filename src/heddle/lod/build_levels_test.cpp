@@ -283,12 +283,14 @@ TEST(BuildLevels, WhereALevelCannotHaveWhatNeighboursShareNoneHas) {
     Progress silent;
     VoxelLevels cut = build(swatch(), options); // fewer levels than there will be, and no masks
     cut.resize(2);
-    for (VoxelBlock& block : dynamic_cast<VoxelGrid&>(*cut[0]).blocks) {
+    for (VoxelBlock& block : *cut[0]->blocks_in_memory()) {
         block.columns = {};
         block.moments = {};
         block.map_sums = {};
     }
-    cut[0]->about.fields.masks = false;
+    VoxelGridInfo info = cut[0]->info();
+    info.fields.masks = false;
+    cut[0]->set_info(info);
     const VoxelLevels levels[2] = {rebuild_levels(std::move(cut), {}, false, silent),
                                    rebuild_levels(build(swatch(), options), naive, true, silent)};
     for (const VoxelLevels& of : levels) {
@@ -306,7 +308,7 @@ TEST(BuildLevels, WhereALevelCannotHaveWhatNeighboursShareNoneHas) {
 
 TEST(BuildLevels, WithoutColumnsTransparenciesMultiplyAlongAndAverageAcross) {
     auto grid = std::make_unique<VoxelGrid>();
-    grid->about.materials.resize(1);
+    grid->info().materials.resize(1);
     VoxelBlock& block = grid->blocks.emplace_back();
     VoxelLeaf leaf{.origin = {0, 0, 0}};
     leaf.active[0] = 1;                           // voxel (0, 0, 0)
@@ -318,7 +320,7 @@ TEST(BuildLevels, WithoutColumnsTransparenciesMultiplyAlongAndAverageAcross) {
         block.lobe_count.push_back(1);
         block.lobes.push_back({pack({0.25f, 0.25f, 0.25f, 0, 0, 0}), 255, 0});
     }
-    grid->about.voxel_count = grid->about.lobe_count = 3;
+    grid->info().voxel_count = grid->info().lobe_count = 3;
     VoxelLevels levels;
     levels.push_back(std::move(grid));
     Progress silent;

@@ -53,9 +53,9 @@ std::vector<MethodErrors> report(const VoxelLevels& levels, int parents) {
 /// Two voxels of one parent, each with a lobe of its material, and a third to have a level above.
 VoxelLevels pair_of(const Lobe& a, const Lobe& b, MaterialKind second) {
     auto grid = std::make_unique<VoxelGrid>();
-    grid->about.materials.resize(2);
-    grid->about.materials[0].kind = MaterialKind::Fiber;
-    grid->about.materials[1].kind = second;
+    grid->info().materials.resize(2);
+    grid->info().materials[0].kind = MaterialKind::Fiber;
+    grid->info().materials[1].kind = second;
     const Coverage half{32768, 32768, 32768, 1000};
     grid->blocks = heddle::testing::make_blocks(
         {{{0, 0, 0}, {half, {a}}}, {{1, 0, 0}, {half, {b}}}, {{4, 0, 0}, {half, {a}}}});

@@ -16,7 +16,9 @@ namespace {
 /// Puts what `old` holds of its voxels' columns, coverage and what neighbours share, in the place of
 /// what was made of level 0's.
 /// @throws Error  BadFile: the old level has other voxels
-void keep_columns(const VoxelSource& old, VoxelGrid& made) {
+void keep_columns(const VoxelSource& old, VoxelSource& made) {
+    std::vector<VoxelBlock>* const blocks = made.blocks_in_memory();
+    if (blocks == nullptr) return;
     std::map<std::tuple<int, int, int>, std::pair<std::size_t, std::size_t>> leaves;
     VoxelBlock scratch;
     for (std::size_t b = 0; b < old.block_count(); ++b) {
@@ -26,10 +28,12 @@ void keep_columns(const VoxelSource& old, VoxelGrid& made) {
             leaves[{o.x, o.y, o.z}] = {b, i};
         }
     }
-    VoxelGridFields& fields = made.about.fields;
+    VoxelGridInfo info = made.info();
+    VoxelGridFields& fields = info.fields;
     fields.footprints = old.info().fields.footprints;
     fields.correlation = old.info().fields.correlation;
-    for (VoxelBlock& block : made.blocks) {
+    made.set_info(info);
+    for (VoxelBlock& block : *blocks) {
         if (fields.footprints != 0) block.footprints.resize(block.coverage.size());
         if (fields.correlation) block.correlation.resize(block.coverage.size());
         for (const VoxelLeaf& leaf : block.leaves) {
@@ -56,11 +60,13 @@ void keep_columns(const VoxelSource& old, VoxelGrid& made) {
 
 /// Takes away what neighbours share, where levels above cannot have it.
 void drop_shared(VoxelSource& level) {
-    level.about.fields.footprints = 0;
-    level.about.fields.correlation = false;
-    auto* grid = dynamic_cast<VoxelGrid*>(&level);
-    if (grid == nullptr) return;
-    for (VoxelBlock& block : grid->blocks) {
+    VoxelGridInfo info = level.info();
+    info.fields.footprints = 0;
+    info.fields.correlation = false;
+    level.set_info(std::move(info));
+    std::vector<VoxelBlock>* const blocks = level.blocks_in_memory();
+    if (blocks == nullptr) return;
+    for (VoxelBlock& block : *blocks) {
         block.footprints = {};
         block.correlation = {};
     }
@@ -120,9 +126,11 @@ rebuild_levels(VoxelLevels old, const LodOptions& options, bool exact, Progress&
     VoxelLevels levels = builder.finish(std::move(old[0]));
     const bool naive = options.method == LodMethod::Naive;
     for (std::size_t l = 0; l < levels.size(); ++l) {
-        levels[l]->about.approximate = !masks && levels.size() > 1;
+        VoxelGridInfo info = levels[l]->info();
+        info.approximate = !masks && levels.size() > 1;
+        levels[l]->set_info(std::move(info));
         if (masks || naive || l == 0 || l >= old.size()) continue;
-        if (auto* grid = dynamic_cast<VoxelGrid*>(levels[l].get())) keep_columns(*old[l], *grid);
+        keep_columns(*old[l], *levels[l]);
     }
     if (naive || (!masks && old.size() < levels.size())) { // some levels cannot have them
         for (const auto& level : levels) drop_shared(*level);

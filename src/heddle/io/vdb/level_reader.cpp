@@ -69,11 +69,11 @@ class LevelReader {
 public:
     LevelReader(const std::string& path, const VdbContents& file, const VoxelGridInfo& info)
         : path_(path), file_(file), grid_(std::make_unique<VoxelGrid>()) {
-        grid_->about = info;
+        grid_->set_info(info);
     }
 
     std::unique_ptr<VoxelGrid> run() {
-        const VoxelGridInfo& info = grid_->about;
+        const VoxelGridInfo& info = grid_->info();
         const int lobes = read_lobes();
         const LevelGrids of{info.level, info.fields, lobes,
                             file_.find(grid_name(GridKind::Merge, 0, info.level)) != nullptr};
@@ -95,7 +95,7 @@ private:
     [[noreturn]] void fail_at(const std::string& what, std::size_t x, int bit, Vec3i origin) const {
         fail(str("voxel (", origin.x + static_cast<int>(x), ", ", origin.y + (bit >> 3), ", ",
                  origin.z + (bit & 7), ")",
-                 grid_->about.level > 0 ? str(" of level ", grid_->about.level) : "", " ", what));
+                 grid_->info().level > 0 ? str(" of level ", grid_->info().level) : "", " ", what));
     }
 
     template <typename Values>
@@ -113,7 +113,7 @@ private:
     /// Makes the blocks, with voxels and lobes but nothing else.
     /// @return  most lobes of a voxel
     int read_lobes() {
-        const VoxelGridInfo& info = grid_->about;
+        const VoxelGridInfo& info = grid_->info();
         const GridLeaves coverage =
             read(grid_name(GridKind::Coverage, 0, info.level), CoverageValues{});
         std::vector<GridLeaves> lobes;
@@ -180,7 +180,7 @@ private:
     }
 
     void check_lobe(const Lobe& lobe, std::size_t x, int bit, Vec3i origin) const {
-        const std::size_t materials = grid_->about.materials.size();
+        const std::size_t materials = grid_->info().materials.size();
         if (lobe.weight == 0) fail_at("has a lobe of weight 0 (allowed: 1 to 255)", x, bit, origin);
         if (lobe.material >= materials) {
             fail_at(str("names material ", int{lobe.material}, " of ", materials), x, bit, origin);
@@ -191,7 +191,7 @@ private:
     }
 
     void check_counts(std::size_t lobes_in_grids) const {
-        const VoxelGridInfo& info = grid_->about;
+        const VoxelGridInfo& info = grid_->info();
         const std::string level = info.level > 0 ? str("level ", info.level, " ") : "";
         std::int64_t voxels = 0, lobes = 0;
         for (const VoxelBlock& b : grid_->blocks) {
