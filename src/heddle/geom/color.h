@@ -3,6 +3,8 @@
 #include <heddle/base/vec.h>
 
 #include <algorithm>
+#include <cmath>
+#include <concepts>
 #include <cstdint>
 
 namespace heddle {
@@ -16,6 +18,16 @@ namespace heddle {
         out |= static_cast<std::uint32_t>(v) << (8 * c);
     }
     return out;
+}
+
+/// A linear value in 8 bits by the sRGB curve, rounded.
+/// @tparam T      precision in which the curve is taken
+/// @param linear  clamped to [0, 1]; NaN gives 0
+template <std::floating_point T>
+[[nodiscard]] std::uint8_t encode_srgb(T linear) {
+    const T c = linear > T(0) ? std::min(linear, T(1)) : T(0);
+    const T s = c <= T(0.0031308) ? T(12.92) * c : T(1.055) * std::pow(c, T(1) / T(2.4)) - T(0.055);
+    return static_cast<std::uint8_t>(s * T(255) + T(0.5));
 }
 
 } // namespace heddle

@@ -3,6 +3,7 @@
 #include <heddle/base/error.h>
 #include <heddle/base/parallel.h>
 #include <heddle/base/random.h>
+#include <heddle/geom/color.h>
 #include <heddle/preview/scene.h>
 
 #include <algorithm>
@@ -298,12 +299,6 @@ private:
     Vec3f eye_;
 };
 
-std::uint8_t to_srgb(float linear) {
-    const float x = std::clamp(linear, 0.0f, 1.0f);
-    const float s = x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1.0f / 2.4f) - 0.055f;
-    return static_cast<std::uint8_t>(s * 255.0f + 0.5f);
-}
-
 void put_pixel(PreviewImage& image, std::size_t at, Vec3f color, float alpha, bool transparent) {
     if (!transparent) {
         color = color + Vec3f{1.0f, 1.0f, 1.0f} * (1.0f - alpha);
@@ -311,7 +306,7 @@ void put_pixel(PreviewImage& image, std::size_t at, Vec3f color, float alpha, bo
     }
     const float s = alpha > 0.0f ? 1.0f / alpha : 0.0f;
     std::uint8_t* to = image.rgba.data() + at * 4;
-    for (int c = 0; c < 3; ++c) to[c] = to_srgb(color[c] * s);
+    for (int c = 0; c < 3; ++c) to[c] = encode_srgb(color[c] * s);
     to[3] = static_cast<std::uint8_t>(alpha * 255.0f + 0.5f);
 }
 

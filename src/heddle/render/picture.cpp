@@ -1,5 +1,6 @@
 #include <heddle/render/picture.h>
 
+#include <heddle/geom/color.h>
 #include <heddle/sggx/eigen.h>
 
 #include <algorithm>
@@ -102,12 +103,6 @@ std::vector<PictureChannel> channels_of(const Picture& picture, bool all) {
     add("samples", [&](const PixelSums& p) { return p.samples; });
     add("variance", [&](const PixelSums& p) { return variance_of_mean(p); });
     return out;
-}
-
-std::uint8_t encode_srgb(double x) {
-    const double c = x > 0.0 ? std::min(x, 1.0) : 0.0; // NaN gives 0
-    const double s = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055;
-    return static_cast<std::uint8_t>(s * 255.0 + 0.5);
 }
 
 std::vector<std::uint8_t> to_srgb8(const Picture& picture, double exposure) {

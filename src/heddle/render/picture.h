@@ -54,9 +54,6 @@ struct PictureChannel {
 /// face, tangents, which have no side, with their largest component positive.
 [[nodiscard]] std::vector<PictureChannel> channels_of(const Picture& picture, bool all);
 
-/// A linear value in 8 bits by the sRGB curve; clamped, NaN gives 0.
-[[nodiscard]] std::uint8_t encode_srgb(double x);
-
 /// R, G, B, A in 8 bits: exposed, and by the sRGB curve.
 /// @param exposure  stops: radiance is multiplied by 2^exposure
 [[nodiscard]] std::vector<std::uint8_t> to_srgb8(const Picture& picture, double exposure);

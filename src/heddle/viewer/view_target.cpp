@@ -1,7 +1,7 @@
 #include <heddle/viewer/view_target.h>
 
 #include <heddle/base/error.h>
-#include <heddle/render/picture.h>
+#include <heddle/geom/color.h>
 
 #include <epoxy/gl.h>
 
