@@ -3,7 +3,7 @@
 #include <heddle/base/error.h>
 #include <heddle/base/parallel.h>
 #include <heddle/io/file/input_file.h>
-#include <heddle/io/vdb/leaf_table.h>
+#include <heddle/io/vdb/vdb_leaves.h>
 
 #include <openvdb/io/Compression.h>
 

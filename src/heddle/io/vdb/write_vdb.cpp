@@ -69,11 +69,11 @@ struct HalfDirectionValues : DirectionValues {
 /// A level to be written and what its walk found.
 struct Level {
     const VoxelSource& source;
-    LeafTable table;
+    VdbLeaves found;
 
     [[nodiscard]] const VoxelGridInfo& info() const { return source.info(); }
     [[nodiscard]] LevelGrids grids() const {
-        return {info().level, info().fields, table.most_lobes, table.merge_voxels > 0};
+        return {info().level, info().fields, found.most_lobes, found.merge_voxels > 0};
     }
 };
 
@@ -160,9 +160,9 @@ private:
                         openvdb::StringMetadata("blosc + active values"));
         if (voxels == 0) return;
         grid.insertMeta(GridBase::META_FILE_BBOX_MIN,
-                        openvdb::Vec3IMetadata(to_vdb(level.table.lo)));
+                        openvdb::Vec3IMetadata(to_vdb(level.found.lo)));
         grid.insertMeta(GridBase::META_FILE_BBOX_MAX,
-                        openvdb::Vec3IMetadata(to_vdb(level.table.hi)));
+                        openvdb::Vec3IMetadata(to_vdb(level.found.hi)));
     }
 
     std::ostream& out_;
@@ -179,7 +179,7 @@ public:
         for_each_voxel_grid(level_.grids(), [&](const std::string& name, const auto& values) {
             archive_.write(level_, name, values, leaves_of(values));
         });
-        for (int k = 0; k < level_.table.most_lobes; ++k) {
+        for (int k = 0; k < level_.found.most_lobes; ++k) {
             const auto leaves = leaves_of(OfLobe{static_cast<std::size_t>(k)});
             for_each_lobe_grid(level_.grids(), k, [&](const std::string& name, const auto& values) {
                 archive_.write(level_, name, values, leaves);
@@ -189,7 +189,7 @@ public:
 
     /// Grids that write() writes.
     [[nodiscard]] static int count(const Level& level) {
-        int grids = 1 + (level.table.fiber_voxels > 0) + (level.table.surface_voxels > 0);
+        int grids = 1 + (level.found.fiber_voxels > 0) + (level.found.surface_voxels > 0);
         for_each_grid(level.grids(), [&](const std::string&, const auto&) { ++grids; });
         return grids;
     }
@@ -199,29 +199,29 @@ private:
     void write_derived() {
         const VoxelGridInfo& info = level_.info();
         const auto name = [&](GridKind kind) { return grid_name(kind, 0, info.level); };
-        const std::span<const LeafRef> all = level_.table.leaves;
+        const std::span<const LeafRef> all = level_.found.leaves;
         archive_.write(level_, name(GridKind::Density), DensityValues(info.lattice), all);
         for (const MaterialKind kind : {MaterialKind::Fiber, MaterialKind::Surface}) {
             const bool fiber = kind == MaterialKind::Fiber;
             const std::int64_t voxels =
-                fiber ? level_.table.fiber_voxels : level_.table.surface_voxels;
+                fiber ? level_.found.fiber_voxels : level_.found.surface_voxels;
             if (voxels == 0) continue;
             const HalfDirectionValues values(info.materials, kind);
             archive_.write(level_, name(fiber ? GridKind::Tangent : GridKind::Normal), values,
-                           voxels == level_.table.voxel_count ? all : select(values));
+                           voxels == level_.found.voxel_count ? all : select(values));
         }
     }
 
     template <typename Values>
     std::span<const LeafRef> leaves_of(const Values& values) {
-        if (values.every_voxel()) return level_.table.leaves;
+        if (values.every_voxel()) return level_.found.leaves;
         return select(values);
     }
 
     /// Holds until the next call.
     template <typename Values>
     std::span<const LeafRef> select(const Values& values) {
-        selected_ = select_leaves(level_.source, level_.table.leaves,
+        selected_ = select_leaves(level_.source, level_.found.leaves,
                                   [&](const VoxelBlock& block, const VoxelLeaf& leaf) {
                                       LeafMask active{};
                                       for_each_active(
@@ -242,8 +242,8 @@ private:
 openvdb::MetaMap make_metadata(std::span<const Level> levels) {
     std::vector<LevelCounts> counts;
     for (const Level& level : levels) {
-        const LeafTable& table = level.table;
-        counts.push_back({table.voxel_count, table.lobe_count, table.lo, table.hi});
+        const VdbLeaves& found = level.found;
+        counts.push_back({found.voxel_count, found.lobe_count, found.lo, found.hi});
     }
     const InfoJson json = to_json(levels[0].info(), counts);
     openvdb::MetaMap metadata;
@@ -284,7 +284,7 @@ void write_grids(std::ostream& out, std::span<const Level> levels, Progress& pro
     for (const Level& level : levels) {
         const int n = LevelWriter::count(level);
         grids += n;
-        work += static_cast<std::int64_t>(level.table.leaves.size()) * n;
+        work += static_cast<std::int64_t>(level.found.leaves.size()) * n;
     }
     progress.begin("write", "leaves", work);
     Archive archive(out, progress);
@@ -300,7 +300,7 @@ void write_sources(std::span<const VoxelSource* const> sources,
     openvdb::initialize();
     std::vector<Level> levels;
     for (const VoxelSource* source : sources) {
-        levels.push_back({*source, make_leaf_table(*source, progress)});
+        levels.push_back({*source, list_vdb_leaves(*source, progress)});
     }
     try {
         std::vector<char> buffer(kBufferBytes); // outlives the stream

@@ -21,7 +21,7 @@ struct LeafRef {
 
 /// All leaves of a source in the order in which a VDB tree of 5, 4, 3 bits holds them, and what a
 /// writer must know before it starts.
-struct LeafTable {
+struct VdbLeaves {
     std::vector<LeafRef> leaves;
     Vec3i lo; ///< first and
     Vec3i hi; ///< last active index, inclusive; meaningless without voxels
@@ -53,6 +53,6 @@ struct LeafTable {
 /// Walks the source once, on all threads.
 /// @throws Error  Internal when two blocks hold the same leaf, an array is not as long as its
 ///                block's fields say, or only some voxels have a merge order; Cancelled
-[[nodiscard]] LeafTable make_leaf_table(const VoxelSource& source, const Progress& progress);
+[[nodiscard]] VdbLeaves list_vdb_leaves(const VoxelSource& source, const Progress& progress);
 
 } // namespace heddle
