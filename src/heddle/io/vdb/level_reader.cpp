@@ -5,6 +5,7 @@
 #include <heddle/io/vdb/grid_reader.h>
 #include <heddle/io/vdb/level_grids.h>
 #include <heddle/sggx/pack.h>
+#include <heddle/voxel/leaf_voxels.h>
 
 #include <algorithm>
 #include <cstring>
@@ -164,19 +165,16 @@ private:
         LeafCursor covered(coverage, leaf.origin);
         std::vector<LeafCursor> cursors;
         for (const GridLeaves& of : lobes) cursors.emplace_back(of, leaf.origin);
-        for (std::size_t x = 0; x < 8; ++x) {
-            for (std::uint64_t w = leaf.active[x]; w != 0; w &= w - 1) {
-                const int bit = std::countr_zero(w);
-                std::size_t n = 0;
-                for (; n < cursors.size() && cursors[n].active(x, bit); ++n) {
-                    block.lobes.push_back(cursors[n].take<Lobe>());
-                    check_lobe(block.lobes.back(), x, bit, leaf.origin);
-                }
-                if (n == 0) fail_at("has coverage and no lobe", x, bit, leaf.origin);
-                block.coverage.push_back(covered.take<Coverage>());
-                block.lobe_count.push_back(static_cast<std::uint8_t>(n));
+        for_each_active(leaf.active, [&](std::size_t x, int bit) {
+            std::size_t n = 0;
+            for (; n < cursors.size() && cursors[n].active(x, bit); ++n) {
+                block.lobes.push_back(cursors[n].take<Lobe>());
+                check_lobe(block.lobes.back(), x, bit, leaf.origin);
             }
-        }
+            if (n == 0) fail_at("has coverage and no lobe", x, bit, leaf.origin);
+            block.coverage.push_back(covered.take<Coverage>());
+            block.lobe_count.push_back(static_cast<std::uint8_t>(n));
+        });
     }
 
     void check_lobe(const Lobe& lobe, std::size_t x, int bit, Vec3i origin) const {
@@ -235,7 +233,7 @@ private:
         std::size_t taken = 0;
         for (const VoxelLeaf& leaf : block.leaves) {
             LeafCursor cursor(grid, leaf.origin);
-            for_each_active(
+            for_each_in_grid(
                 block, leaf, values, [&](std::size_t x, int bit, std::size_t v, std::size_t l) {
                     if (!cursor.active(x, bit)) {
                         fail_at(str("has no value in grid '", name, "'"), x, bit, leaf.origin);
@@ -249,16 +247,16 @@ private:
 
     void check_merges() const {
         const auto check = [&](const VoxelBlock& block, const VoxelLeaf& leaf) {
-            for_each_active(block, leaf, MergeValues{},
-                            [&](std::size_t x, int bit, std::size_t v, std::size_t) {
-                                for (int lobe = 2; lobe < block.lobe_count[v]; ++lobe) {
-                                    const int target = merge_target(block.merge_order[v], lobe);
-                                    if (target < lobe) continue;
-                                    fail_at(str("merges lobe ", lobe, " into lobe ", target,
-                                                " (allowed: 0 to ", lobe - 1, ")"),
-                                            x, bit, leaf.origin);
-                                }
-                            });
+            for_each_in_grid(block, leaf, MergeValues{},
+                             [&](std::size_t x, int bit, std::size_t v, std::size_t) {
+                                 for (int lobe = 2; lobe < block.lobe_count[v]; ++lobe) {
+                                     const int target = merge_target(block.merge_order[v], lobe);
+                                     if (target < lobe) continue;
+                                     fail_at(str("merges lobe ", lobe, " into lobe ", target,
+                                                 " (allowed: 0 to ", lobe - 1, ")"),
+                                             x, bit, leaf.origin);
+                                 }
+                             });
         };
         for (const VoxelBlock& block : grid_->blocks) {
             for (const VoxelLeaf& leaf : block.leaves) check(block, leaf);

@@ -1,49 +1,15 @@
+#include <heddle/io/vdb/vdb_leaves.h>
+
 #include <heddle/base/error.h>
 #include <heddle/base/parallel.h>
 #include <heddle/io/vdb/level_grids.h>
-#include <heddle/io/vdb/vdb_leaves.h>
+#include <heddle/voxel/index_box.h>
 
 #include <algorithm>
-#include <bit>
-#include <limits>
 #include <tuple>
 
 namespace heddle {
 namespace {
-
-VdbLeaves no_leaves() {
-    VdbLeaves found;
-    constexpr std::int32_t kMax = std::numeric_limits<std::int32_t>::max();
-    found.lo = {kMax, kMax, kMax};
-    found.hi = {-kMax, -kMax, -kMax};
-    return found;
-}
-
-void grow(VdbLeaves& found, Vec3i lo, Vec3i hi) {
-    for (int a = 0; a < 3; ++a) {
-        found.lo[a] = std::min(found.lo[a], lo[a]);
-        found.hi[a] = std::max(found.hi[a], hi[a]);
-    }
-}
-
-void grow(VdbLeaves& found, const VoxelLeaf& leaf) {
-    std::uint64_t any = 0;
-    for (int x = 0; x < 8; ++x) {
-        const std::uint64_t w = leaf.active[static_cast<std::size_t>(x)];
-        any |= w;
-        if (w == 0) continue;
-        found.lo.x = std::min(found.lo.x, leaf.origin.x + x);
-        found.hi.x = std::max(found.hi.x, leaf.origin.x + x);
-    }
-    for (int y = 0; y < 8; ++y) {
-        const std::uint64_t row = (any >> (8 * y)) & 0xff;
-        if (row == 0) continue;
-        const int z_lo = std::countr_zero(row);
-        const int z_hi = 63 - std::countl_zero(row);
-        grow(found, {found.lo.x, leaf.origin.y + y, leaf.origin.z + z_lo},
-             {found.hi.x, leaf.origin.y + y, leaf.origin.z + z_hi});
-    }
-}
 
 [[noreturn]] void fail(const char* what) {
     throw Error(ErrorCode::Internal, str("write vdb: ", what));
@@ -87,12 +53,12 @@ void add_leaf(VdbLeaves& found,
         l += n;
     }
     found.voxel_count += static_cast<std::int64_t>(end - leaf.first_voxel);
-    grow(found, leaf);
+    found.box.grow(box_of(leaf));
 }
 
 VdbLeaves combine(VdbLeaves a, const VdbLeaves& b) {
     a.leaves.insert(a.leaves.end(), b.leaves.begin(), b.leaves.end());
-    grow(a, b.lo, b.hi);
+    a.box.grow(b.box);
     a.voxel_count += b.voxel_count;
     a.lobe_count += b.lobe_count;
     a.most_lobes = std::max(a.most_lobes, b.most_lobes);
@@ -114,7 +80,7 @@ auto tree_order(const LeafRef& ref) {
 VdbLeaves list_vdb_leaves(const VoxelSource& source, const Progress& progress) {
     const VoxelGridInfo& info = source.info();
     const auto walk = [&](std::size_t begin, std::size_t end) {
-        VdbLeaves part = no_leaves();
+        VdbLeaves part;
         VoxelBlock scratch;
         for (std::size_t b = begin; b < end; ++b) {
             progress.check();
@@ -130,7 +96,7 @@ VdbLeaves list_vdb_leaves(const VoxelSource& source, const Progress& progress) {
         }
         return part;
     };
-    VdbLeaves found = reduce_chunks(source.block_count(), 16, no_leaves(), walk, combine);
+    VdbLeaves found = reduce_chunks(source.block_count(), 16, VdbLeaves{}, walk, combine);
     std::sort(found.leaves.begin(), found.leaves.end(),
               [](const LeafRef& a, const LeafRef& b) { return tree_order(a) < tree_order(b); });
     for (std::size_t i = 1; i < found.leaves.size(); ++i) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <heddle/base/progress.h>
+#include <heddle/voxel/index_box.h>
 #include <heddle/voxel/voxel_grid.h>
 
 #include <array>
@@ -23,8 +24,7 @@ struct LeafRef {
 /// writer must know before it starts.
 struct VdbLeaves {
     std::vector<LeafRef> leaves;
-    Vec3i lo; ///< first and
-    Vec3i hi; ///< last active index, inclusive; meaningless without voxels
+    IndexBox box; ///< of the active voxels
     std::int64_t voxel_count = 0;
     std::int64_t lobe_count = 0;
     std::int32_t most_lobes = 0;      ///< of any voxel

@@ -101,7 +101,7 @@ public:
         write_leaves<Value>(level, name, leaves,
                             [&](const VoxelBlock& block, const VoxelLeaf& leaf, Value* buffer) {
                                 std::size_t n = 0;
-                                for_each_active(
+                                for_each_in_grid(
                                     block, leaf, values,
                                     [&](std::size_t, int, std::size_t v, std::size_t l) {
                                         buffer[n++] = values.value(block, v, l);
@@ -160,9 +160,9 @@ private:
                         openvdb::StringMetadata("blosc + active values"));
         if (voxels == 0) return;
         grid.insertMeta(GridBase::META_FILE_BBOX_MIN,
-                        openvdb::Vec3IMetadata(to_vdb(level.found.lo)));
+                        openvdb::Vec3IMetadata(to_vdb(level.found.box.lo)));
         grid.insertMeta(GridBase::META_FILE_BBOX_MAX,
-                        openvdb::Vec3IMetadata(to_vdb(level.found.hi)));
+                        openvdb::Vec3IMetadata(to_vdb(level.found.box.hi)));
     }
 
     std::ostream& out_;
@@ -224,7 +224,7 @@ private:
         selected_ = select_leaves(level_.source, level_.found.leaves,
                                   [&](const VoxelBlock& block, const VoxelLeaf& leaf) {
                                       LeafMask active{};
-                                      for_each_active(
+                                      for_each_in_grid(
                                           block, leaf, values,
                                           [&](std::size_t x, int bit, std::size_t, std::size_t) {
                                               active[x] |= std::uint64_t{1} << bit;
@@ -243,7 +243,7 @@ openvdb::MetaMap make_metadata(std::span<const Level> levels) {
     std::vector<LevelCounts> counts;
     for (const Level& level : levels) {
         const VdbLeaves& found = level.found;
-        counts.push_back({found.voxel_count, found.lobe_count, found.lo, found.hi});
+        counts.push_back({found.voxel_count, found.lobe_count, found.box.lo, found.box.hi});
     }
     const InfoJson json = to_json(levels[0].info(), counts);
     openvdb::MetaMap metadata;
