@@ -3,7 +3,7 @@
 # Every library is installed with its headers: the core in one export set, the rooms above it in another,
 # so that a machine without their libraries can still link the core (cmake/heddle-config.cmake.in).
 # the core: a C++20 compiler, and oneTBB or std::thread
-set(HEDDLE_CORE_ROOMS base executor geom sggx voxel yarn surface voxelize/block voxelize/chord voxelize/fiber
+set(HEDDLE_CORE_ROOMS base executor geom sggx voxel leaf_table flake yarn surface voxelize/block voxelize/chord voxelize/fiber
   voxelize/triangle voxelize lod device/level device)
 add_library(heddle_flags INTERFACE)
 set(_w -Wall -Wextra -Wshadow -Wconversion -Wdouble-promotion -Wundef -Wnon-virtual-dtor -Woverloaded-virtual -ffp-contract=off)

@@ -4,10 +4,10 @@
 #include <heddle/cli/load.h>
 #include <heddle/cli/terminal/progress_bar.h>
 #include <heddle/cli/terminal/report.h>
+#include <heddle/flake/flake_field.h>
 #include <heddle/io/vdb/read_vdb.h>
 #include <heddle/io/vol/write_mitsuba.h>
 #include <heddle/io/vol/write_mitsuba06.h>
-#include <heddle/voxel/flake_field.h>
 
 #include <chrono>
 

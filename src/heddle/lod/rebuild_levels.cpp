@@ -2,11 +2,10 @@
 
 #include <heddle/base/error.h>
 #include <heddle/base/parallel.h>
+#include <heddle/leaf_table/leaf_table.h>
 #include <heddle/voxel/z_order.h>
 
 #include <algorithm>
-#include <map>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -19,13 +18,14 @@ namespace {
 void keep_columns(const VoxelSource& old, VoxelSource& made) {
     std::vector<VoxelBlock>* const blocks = made.blocks_in_memory();
     if (blocks == nullptr) return;
-    std::map<std::tuple<int, int, int>, std::pair<std::size_t, std::size_t>> leaves;
+    LeafTable<3> table;
+    std::vector<std::pair<std::size_t, std::size_t>> leaves; // block and number there
     VoxelBlock scratch;
     for (std::size_t b = 0; b < old.block_count(); ++b) {
         const VoxelBlock& block = old.block(b, scratch);
         for (std::size_t i = 0; i < block.leaves.size(); ++i) {
-            const Vec3i& o = block.leaves[i].origin;
-            leaves[{o.x, o.y, o.z}] = {b, i};
+            table.add(block.leaves[i].origin);
+            leaves.emplace_back(b, i);
         }
     }
     VoxelGridInfo info = made.info();
@@ -37,10 +37,14 @@ void keep_columns(const VoxelSource& old, VoxelSource& made) {
         if (fields.footprints != 0) block.footprints.resize(block.coverage.size());
         if (fields.correlation) block.correlation.resize(block.coverage.size());
         for (const VoxelLeaf& leaf : block.leaves) {
-            const auto at = leaves.find({leaf.origin.x, leaf.origin.y, leaf.origin.z});
-            const VoxelBlock* from =
-                at == leaves.end() ? nullptr : &old.block(at->second.first, scratch);
-            if (from == nullptr || from->leaves[at->second.second].active != leaf.active) {
+            const std::uint32_t number = table.find(leaf.origin).leaf;
+            const VoxelBlock* from = nullptr;
+            const VoxelLeaf* old_leaf = nullptr;
+            if (number != LeafTable<3>::kNone) {
+                from = &old.block(leaves[number].first, scratch);
+                old_leaf = &from->leaves[leaves[number].second];
+            }
+            if (old_leaf == nullptr || old_leaf->active != leaf.active) {
                 throw Error(ErrorCode::BadFile,
                             str("lod: level ", old.info().level, " of '", old.info().name,
                                 "' has other voxels than its level 0"),
@@ -48,8 +52,8 @@ void keep_columns(const VoxelSource& old, VoxelSource& made) {
             }
             const auto copy = [&](const auto& of, auto& to) {
                 if (to.empty()) return;
-                std::copy_n(of.begin() + from->leaves[at->second.second].first_voxel,
-                            leaf.voxel_count(), to.begin() + leaf.first_voxel);
+                std::copy_n(of.begin() + old_leaf->first_voxel, leaf.voxel_count(),
+                            to.begin() + leaf.first_voxel);
             };
             copy(from->coverage, block.coverage);
             copy(from->footprints, block.footprints);

@@ -17,6 +17,8 @@ using preview::Leaf;
 using preview::Scene;
 using preview::Voxel;
 
+/// A ray whose direction is in double, where the renderer's has floats: it starts far from what it
+/// meets, and steps through cells of 128 voxels.
 struct Ray {
     Vec3d origin;
     Vec3d direction; ///< unit
@@ -187,20 +189,20 @@ private:
         Walk walk(s.p * (1.0 / 128.0), s.d * (1.0 / 128.0), t, lo, hi);
         while (t < t_end && s.through > kOpaque) {
             const double leave = std::min(walk.end(), t_end);
-            const std::int32_t cell = scene_.cell(walk.at);
-            if (cell >= 0) walk_leaves(s, cell, walk.at, t, leave);
+            const std::uint32_t tile = scene_.table().find_tile(walk.at);
+            if (tile != Scene::Table::kNone) walk_leaves(s, tile, walk.at, t, leave);
             t = std::max(t, leave);
             if (leave >= t_end || !walk.advance(lo, hi)) break;
         }
     }
 
-    void walk_leaves(State& s, std::int32_t cell, Vec3i at, double t, double t_end) const {
+    void walk_leaves(State& s, std::uint32_t tile, Vec3i at, double t, double t_end) const {
         const Vec3i lo = at * 16;
         const Vec3i hi = lo + Vec3i{15, 15, 15};
         Walk walk(s.p * 0.125, s.d * 0.125, t, lo, hi);
         while (t < t_end && s.through > kOpaque) {
             const double leave = std::min(walk.end(), t_end);
-            const Leaf* leaf = scene_.leaf(cell, walk.at);
+            const Leaf* leaf = scene_.leaf(tile, walk.at);
             if (leaf != nullptr) walk_voxels(s, *leaf, walk.at, t, leave);
             t = std::max(t, leave);
             if (leave >= t_end || !walk.advance(lo, hi)) break;
@@ -213,11 +215,8 @@ private:
         Walk walk(s.p, s.d, t, lo, hi);
         while (t < t_end && s.through > kOpaque) {
             const double leave = std::min(walk.end(), t_end);
-            const Vec3i i = walk.at - lo;
-            const int bit = i.y * 8 + i.z;
-            if (leave > t && ((leaf.active[static_cast<std::size_t>(i.x)] >> bit) & 1) != 0) {
-                add(s, scene_.voxel(leaf, i.x, bit), at, t, leave);
-            }
+            const std::int32_t number = leaf.mask.find(walk.at);
+            if (leave > t && number >= 0) add(s, scene_.voxel(leaf, number), at, t, leave);
             t = std::max(t, leave);
             if (leave >= t_end || !walk.advance(lo, hi)) break;
         }

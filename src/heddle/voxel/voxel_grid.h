@@ -109,18 +109,6 @@ struct VoxelLeaf {
     }
 };
 
-/// Sets before[x] to the number of bits that words before x have.
-/// @return  the number of bits of all
-inline std::uint16_t count_before(const std::array<std::uint64_t, 8>& words,
-                                  std::array<std::uint16_t, 8>& before) {
-    std::uint16_t count = 0;
-    for (std::size_t x = 0; x < 8; ++x) {
-        before[x] = count;
-        count = static_cast<std::uint16_t>(count + std::popcount(words[x]));
-    }
-    return count;
-}
-
 /// In which order a voxel's lobes merge when fewer are wanted: with n lobes left, lobe n - 1 joins
 /// lobe `merge_target(order, n - 1)`. Lobe 1 joins lobe 0.
 [[nodiscard]] constexpr int merge_target(std::uint32_t order, int lobe) {
