@@ -5,6 +5,7 @@
 #include <heddle/base/random.h>
 #include <heddle/geom/color.h>
 #include <heddle/preview/scene.h>
+#include <heddle/preview/sheet.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +14,10 @@
 namespace heddle {
 namespace {
 
+using preview::kClosing;
+using preview::kFlatWidth;
+using preview::kOpaque;
+using preview::kSheetGap;
 using preview::Leaf;
 using preview::Scene;
 using preview::Voxel;
@@ -159,14 +164,6 @@ private:
         double sheet_end = -std::numeric_limits<double>::infinity(); ///< t where it was last met
         float sheet_left = 1.0f; ///< what the flat voxels met one after the other left of 1
     };
-    static constexpr float kOpaque = 0.004f; ///< less than this is not followed
-    static constexpr int kFlatWidth = 96;    ///< of a normal lobe: a sheet, not foliage
-    /// More than what is exact in the mean: the parts that a ray meets do not add up to just 1. At 1
-    /// slanted surfaces look moth-eaten, at 1.5 closed; edges come out half a voxel wider.
-    static constexpr float kClosing = 1.5f;
-    /// voxels that a ray may pass between two of a sheet's
-    static constexpr double kSheetGap = 0.5;
-
     bool clip(Vec3d p, Vec3d d, double& t, double& t_end) const {
         t = 0.0;
         t_end = std::numeric_limits<double>::infinity();
@@ -251,7 +248,7 @@ private:
         }
         const float opaque = kClosing * std::abs(surface) / voxel;
         const Vec3d h = scene_.voxel_size();
-        if (t > s.sheet_end + kSheetGap * std::min({h.x, h.y, h.z})) s.sheet_left = 1.0f;
+        if (t > s.sheet_end + double{kSheetGap} * std::min({h.x, h.y, h.z})) s.sheet_left = 1.0f;
         s.sheet_end = leave;
         const float left = std::max(0.0f, s.sheet_left - opaque);
         const float hidden = s.sheet_left > 0.0f ? 1.0f - left / s.sheet_left : 1.0f;
