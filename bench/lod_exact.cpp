@@ -134,7 +134,7 @@ std::string percent(double share) {
     return text;
 }
 
-/// What the issue asks of the levels above 0; prints each row that falls short.
+/// Compares the levels above 0 with their goals and prints each row that falls short.
 class Verdict {
 public:
     void check(const std::string& object, const MethodErrors& errors) {
@@ -146,9 +146,9 @@ public:
             if (m.count == 0) continue;
             less(at + str("moment error, max (", m.over, " of ", m.count, " voxels over it, ",
                           percent(m.over_share), " of the area),"),
-                 m.moment_max, kMomentAsked);
+                 m.moment_max, kMomentGoal);
             less(at + "moment error, median", m.moment_median, 0.003);
-            less(at + "moment error against level 0's sums, max", m.pooled_max, kMomentAsked);
+            less(at + "moment error against level 0's sums, max", m.pooled_max, kMomentGoal);
             less(at + "moment error against level 0's sums, median", m.pooled_median, 0.003);
             if (l == 0) continue;
             const auto compare = [&](LodMethod method, double factor) {
@@ -185,7 +185,7 @@ private:
         ++checks_;
         if (value <= limit) return;
         char text[64];
-        std::snprintf(text, sizeof text, " %.5f, asked %.5f", value, limit);
+        std::snprintf(text, sizeof text, " %.5f, goal %.5f", value, limit);
         lines_.push_back(what + text);
     }
 
@@ -260,7 +260,7 @@ void run(const Object& object,
                  static_cast<long long>(voxels), seconds() - start, times.c_str(), lost);
 }
 
-/// Runs the objects that were asked for, by name, or all.
+/// Runs the objects that the command line names, or all.
 void run_all(std::span<char* const> names, bool with_wasserstein, Verdict& verdict) {
     std::vector<LodMethod> methods(std::begin(kMethods), std::end(kMethods));
     if (with_wasserstein) methods.insert(methods.begin() + 1, LodMethod::Wasserstein);
@@ -291,7 +291,7 @@ int main(int argc, char** argv) try {
     run_all(names, false, verdict);
     std::printf("## Beside wasserstein, on coarser voxels\n\n");
     run_all(names, true, verdict);
-    std::printf("## What was asked\n");
+    std::printf("## Goals\n");
     verdict.print();
     return 0;
 } catch (const std::exception& e) {

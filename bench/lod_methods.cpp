@@ -6,6 +6,7 @@
 #include <heddle/sggx/moment_lobes.h>
 #include <heddle/sggx/moments.h>
 #include <heddle/sggx/pack.h>
+#include <heddle/sggx/test_reduce.h>
 #include <heddle/sggx/wasserstein.h>
 #include <heddle/voxel/leaf_voxels.h>
 
@@ -165,7 +166,7 @@ float spread(const Matrix& M) {
 
 void reduce_moments(Pool& pool, float same) {
     LobeMerge merges[kMaxPool];
-    pool.resize(static_cast<std::size_t>(reduce_lobes(pool, kKeep, merges, same)));
+    pool.resize(static_cast<std::size_t>(test::reduce_lobes(pool, kKeep, merges, same)));
 }
 
 struct Method {
@@ -177,8 +178,8 @@ const Method kMethods[] = {
     {"wasserstein",
      [](Pool& pool, std::uint64_t seed) {
          LobeMerge merges[kMaxPool];
-         pool.resize(
-             static_cast<std::size_t>(reduce_lobes_by_wasserstein(pool, kKeep, seed, merges)));
+         pool.resize(static_cast<std::size_t>(
+             test::reduce_lobes_by_wasserstein(pool, kKeep, seed, merges)));
      }},
     {"single",
      [](Pool& pool, std::uint64_t) {

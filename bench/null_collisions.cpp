@@ -9,8 +9,9 @@
 #include <heddle/base/error.h>
 #include <heddle/geom/affine.h>
 #include <heddle/io/vdb/read_vdb.h>
-#include <heddle/render/clip.h>
-#include <heddle/render/volume.h>
+#include <heddle/render/volume/clip.h>
+#include <heddle/render/volume/transport_law.h>
+#include <heddle/render/volume/walk.h>
 
 #include <chrono>
 #include <cmath>
@@ -142,11 +143,11 @@ void run(const std::string& path, std::size_t count) {
         const VolumeLevel level(*grid);
         const LevelRays rays = make_rays(level, count);
         const auto walk = [&](const VoxelRay& ray, const RayRange& range, StreamRandom& random) {
-            TransportWalker walker(Transport::Product, true, 0.0f, random);
-            walker.enter(level, ray);
+            RayPassage passage(true, random);
+            ProductLaw law(level, ray, passage);
             walk_voxels(level, ray, range.t0, range.t1,
-                        [&](const VoxelStep& step) { return walker.pass(level, step); });
-            return walker.stopped();
+                        [&](const VoxelStep& step) { return law.pass(step); });
+            return passage.stopped();
         };
         DeltaTracker tracker(level);
         const auto track = [&](const VoxelRay& ray, const RayRange& range, StreamRandom& random) {

@@ -126,7 +126,7 @@ def main():
     run.write_all(a.output, entries)
     rows = [entry[0] for entry in entries]
     text = protocol.head("Protocol A: fixed camera, a level against the finest")
-    text += f"256 x 256, {a.samples} samples, mean over touched pixels; `floor`: the finest level with another seed. Asked: gain / its >= 2.\n\n"
+    text += f"256 x 256, {a.samples} samples, mean over touched pixels; `floor`: the finest level with another seed. Goal: gain / its >= 2.\n\n"
     text += "FLIP\n\n" + table_2(rows) + "\nL1 (the paper's figures are FLIP)\n\n" + table_2(rows, "l1")
     text += "\nAll errors\n\n" + table.error_table(rows)
     with open(os.path.join(a.output, "result.md"), "w") as file:

@@ -161,7 +161,7 @@ def main():
     run.write_all(a.output, entries)
     text = protocol.head("Protocol B: a voxel a pixel, against traced geometry")
     text += ("Means over touched pixels. T: transmittance, test - traced. `noise`: what the pictures' noise alone would make (T: at most). R G B: ratio of colour "
-             "sums; per alpha: of luminance by covered area. Times: of all threads, per path that meets the object, other work on the machine. Asked: FLIP "
+             "sums; per alpha: of luminance by covered area. Times: of all threads, per path that meets the object, other work on the machine. Goal: FLIP "
              "and T mean abs .02 and .01.\n\n")
     text += result_table(entries, results)
     with open(os.path.join(a.output, "result.md"), "w") as file:

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# readme_test.sh HEDDLE REPO: runs every marked command of README.md and compares its option tables with the program's.
+# readme_test.sh HEDDLE REPO: runs every marked command of README.md and compares the option tables of docs/options.md with the program's.
 set -euo pipefail
 PATH=$(dirname "$1"):$PATH
 readme=$2/README.md
@@ -16,9 +16,9 @@ bash -euxo pipefail commands.sh
 
 awk '/^<!-- end of heddle help-tables -->/ { inside = 0 }
      inside
-     /^<!-- heddle help-tables -->/ { inside = 1 }' "$readme" >tables.md
+     /^<!-- heddle help-tables -->/ { inside = 1 }' "$2/docs/options.md" >tables.md
 heddle help-tables >program.md
 diff -u tables.md program.md || {
-    echo "README.md's option tables differ from the program's: run tools/update_readme.sh" >&2
+    echo "the option tables of docs/options.md differ from the program's: run tools/update_options.sh" >&2
     exit 1
 }

@@ -61,7 +61,7 @@ void print_bundles() {
         "axis against 64 x 64 rays through the exact cylinders. Straight: straight fibers about a\n"
         "common axis, slope .15 at the surface, directions strewn by .03. Yarn: helices of a\n"
         "procedural yarn, expanded by the voxelizer. Bent: one solid yarn along a helix of radius\n"
-        "4.2, pitch 5 yarn radii. Lengths in subvoxels. Asked: bias .005, mean absolute error\n"
+        "4.2, pitch 5 yarn radii. Lengths in subvoxels. Goal: bias 0.005, mean absolute error\n"
         ".025. Mask is `--coverage mask`.\n\n"
         "| bundle | radius | fiber diameter | fill | faces | mean coverage | bias | mean abs error "
         "| mask: bias | mask: mean abs error |\n|---|---|---|---|---|---|---|---|---|---|\n");

@@ -34,7 +34,7 @@ void print_isolated_fibers() {
         "2,000 random straight fibers of 152 voxels for each diameter: the sum over voxels of\n"
         "coverage x face area against the sum of the exact silhouettes of fiber cut by voxel, in %%\n"
         "of the latter, with its standard error from fiber to fiber. Then the same by the angle\n"
-        "between fiber and axis, all axes together. Asked: 1 %% on every axis; from diameter 0.3 up\n"
+        "between fiber and axis, all axes together. Goal: 1 %% on every axis; from diameter 0.3 up\n"
         "5 %% in every 15 degrees.\n\n"
         "| diameter, subvoxels | x | y | z | 0-15 | 15-30 | 30-45 | 45-60 | 60-75 | 75-90 |\n"
         "|---|---|---|---|---|---|---|---|---|---|\n");

@@ -66,7 +66,7 @@ void print_leaf_fits() {
     std::printf(
         "## Leaf SGGX\n\n"
         "One voxel of fibers in known directions, each set in %d random orientations. M: largest\n"
-        "difference of an entry of the lobe's own second moment M(S) from the pooled one; asked:\n"
+        "difference of an entry of the lobe's own second moment M(S) from the pooled one; goal:\n"
         "1e-4 before packing. Area: projected area over %d directions against the mean of |w . d|\n"
         "over the fibers, mean / worst. No SGGX can follow the corners of few directions: beside it\n"
         "stands the fit sigma_i = mean |w_i . d| of [Fabre26, eq. 15-16]. Stored: decoded from "

@@ -39,8 +39,8 @@ void print_volumes() {
         "subvoxels. Helices: radius 4.2, pitch 5 yarn radii; circles: radius 4.2. Stockinette\n"
         "and plain weave: 6 x 6 of `heddle generate`. Copies turned and moved at random until "
         "they\n"
-        "fill 400,000 subvoxels (the figures' own scatter is about .3 at the thinnest). Asked: 1 "
-        "%%.\n\n"
+        "fill 400,000 subvoxels (the figures' own scatter is about 0.3 at the thinnest). Goal: 1 %%.\n"
+        "The row of plain weave is of half a cloth: the warp yarns alone, which the benchmark takes.\n\n"
         "| yarns |");
     for (const double r : kRadii) std::printf(" %g |", r);
     std::printf("\n|---|");

@@ -217,7 +217,7 @@ LevelErrors measure(const std::vector<Mixture>& mixtures, const Parents& parents
         out.cells += errors[i].cells;
         const double weight = parents.truth(i, kind).weight;
         all += weight;
-        if (!(errors[i].moment > kMomentAsked)) continue;
+        if (!(errors[i].moment > kMomentGoal)) continue;
         ++out.over;
         over += weight;
     }

@@ -76,7 +76,7 @@ struct Mixture {
 /// The mixtures of the chosen voxels.
 [[nodiscard]] std::vector<Mixture> decode(const VoxelSource& level, const Parents& parents);
 
-inline constexpr double kMomentAsked = 0.01; ///< of every voxel
+inline constexpr double kMomentGoal = 0.01; ///< of every voxel
 
 /// Errors of a level, over its chosen voxels.
 struct LevelErrors {
@@ -85,7 +85,7 @@ struct LevelErrors {
     double pooled_max = 0.0, pooled_median = 0.0; ///< against the sums of level 0
     double sigma = 0.0;                           ///< mean
     double cells = 0.0;                           ///< mean
-    std::size_t over = 0;    ///< voxels whose moment errs by more than kMomentAsked
+    std::size_t over = 0;    ///< voxels whose moment errs by more than kMomentGoal
     double over_share = 0.0; ///< of the directed area of all that were measured
 };
 

@@ -2,7 +2,9 @@
 
 #include <heddle/base/error.h>
 #include <heddle/base/parallel.h>
+#include <heddle/voxelize/chord/yarn_frame.h>
 #include <heddle/yarn/fiber_source.h>
+#include <heddle/yarn/yarn_section.h>
 
 #include <algorithm>
 #include <cmath>
@@ -56,24 +58,13 @@ double fastest(const Cubic& c) {
         {length(c.c[1]), length(c.c[1] + c.c[2]), length(c.c[1] + 2.0 * c.c[2] + 3.0 * c.c[3])});
 }
 
-/// One piece's centreline and cross-section, scene units.
-struct Place {
-    Vec3d center, normal, binormal;
-    double s;     ///< yarn length since its start, model units
-    double scale; ///< scene units a model unit
-
-    Place(const Cubic& cubic, const YarnCourse& course, double unit, double t) {
-        const Vec3d tangent = normalize(cubic.derivative(t));
-        const Vec3d lerped = (1.0 - t) * to_double(course.normal0) + t * to_double(course.normal1);
-        center = cubic.at(t);
-        normal = normalize(lerped - dot(lerped, tangent) * tangent);
-        binormal = cross(tangent, normal);
-        s = course.start + course.length * t;
-        const auto s0 = static_cast<double>(course.scale0);
-        const auto s1 = static_cast<double>(course.scale1);
-        scale = unit * ((1.0 - t) * s0 + t * s1);
-    }
-};
+/// A piece's cross-section, all in scene units.
+YarnSection<double>
+section_at(const FiberPiece& piece, const YarnCourse& course, double unit, double t) {
+    YarnSection<double> section(piece.cubic, course, t);
+    section.scale *= unit;
+    return section;
+}
 
 /// The fibers of a yarn at one place.                                    [Zhao 2016, sec. 4]
 class YarnFibers {
@@ -93,11 +84,9 @@ public:
 
     /// Calls visit(fiber, position).
     template <typename Visit>
-    void at(const Place& place, const YarnCourse& course, const Visit& visit) const {
+    void at(const YarnSection<double>& place, const YarnCourse& course, const Visit& visit) const {
         const double* turns = course.turns_per_length;
-        const double closing =
-            course.total > 0.0 ? course.closing_turns * place.s / course.total : 0.0;
-        const double ply_turn = kTau * (turns[0] * place.s + closing);
+        const double ply_turn = kTau * course.ply_turns(place.s);
         const double fiber_turn = kTau * turns[1] * place.s;
         const double cos_fiber = std::cos(fiber_turn), sin_fiber = std::sin(fiber_turn);
         const double migration_turn = kTau * turns[2] * place.s;
@@ -144,7 +133,8 @@ double walk_yarn(const YarnFibers& fibers,
     std::vector<Run> runs(fibers.count());
     double longest = 0.0;
     for (int j = 0; j <= count; ++j) {
-        const Place place(piece.cubic, course, u.unit, static_cast<double>(j) / count);
+        const YarnSection<double> place =
+            section_at(piece, course, u.unit, static_cast<double>(j) / count);
         fibers.at(place, course, [&](std::size_t i, Vec3d p) {
             if (j == 0) {
                 runs[i].from = runs[i].at = p;
@@ -160,26 +150,28 @@ double walk_yarn(const YarnFibers& fibers,
 
 /// Fibers outside a bend run farther than their yarn's centreline: how many steps they need is tried.
 void walk_yarn(const FiberSource& source,
+               const LatticeUnits& units,
                const FiberPiece& piece,
                const FiberTable& table,
                std::vector<Directed>& out) {
     const YarnFibers fibers(*source.yarn_of(piece.set), table);
-    const YarnCourse course = source.course(piece);
+    const YarnCourse course = source.course(piece, units.unit);
     const std::size_t before = out.size();
-    const double allowed = kStep * source.units().unit;
+    const double allowed = kStep * units.unit;
     double steps = 1.5 * fastest(piece.cubic) / allowed;
     for (double longest = allowed * 2.0; longest > allowed;) {
         out.resize(before);
-        longest = walk_yarn(fibers, piece, course, source.units(),
-                            static_cast<int>(std::ceil(steps)), out);
+        longest = walk_yarn(fibers, piece, course, units, static_cast<int>(std::ceil(steps)), out);
         steps *= 1.05 * longest / allowed;
     }
 }
 
 /// A curve that is one fiber.
-void walk_plain(const FiberSource& source, const FiberPiece& piece, std::vector<Directed>& out) {
-    const LatticeUnits& u = source.units();
-    const YarnCourse course = source.course(piece);
+void walk_plain(const FiberSource& source,
+                const LatticeUnits& u,
+                const FiberPiece& piece,
+                std::vector<Directed>& out) {
+    const YarnCourse course = source.course(piece, u.unit);
     const auto count = static_cast<int>(std::ceil(fastest(piece.cubic) / (kStep * u.unit)));
     Run run;
     run.from = run.at = piece.cubic.at(0.0);
@@ -211,17 +203,18 @@ struct TableMemo {
 };
 
 void walk_span(const FiberSource& source,
+               const LatticeUnits& units,
                std::uint64_t span,
                TableMemo& memo,
                std::vector<Directed>& out) {
     const FiberPiece whole = source.whole_span(span);
     const YarnType* yarn = source.yarn_of(whole.set);
     for (std::uint32_t part = 0; part < whole.parts; ++part) {
-        const FiberPiece piece = FiberSource::part_of(whole, part);
+        const FiberPiece piece = part_of(whole, part);
         if (yarn == nullptr || yarn->model == YarnModel::Solid) {
-            walk_plain(source, piece, out);
+            walk_plain(source, units, piece, out);
         } else {
-            walk_yarn(source, piece, memo.of(source, piece), out);
+            walk_yarn(source, units, piece, memo.of(source, piece), out);
         }
     }
 }
@@ -233,7 +226,7 @@ void walk_fibers(const Geometry& geometry,
                  std::uint64_t seed,
                  const TakeDirections& take) {
     const LatticeUnits units(lattice);
-    const FiberSource source(geometry, units, seed);
+    const FiberSource source(geometry, piece_length_of(units), seed);
     std::vector<Directed> batch;
     for (std::uint64_t begin = 0; begin < source.span_count();) {
         std::uint64_t end = begin;
@@ -248,7 +241,7 @@ void walk_fibers(const Geometry& geometry,
             [&](std::size_t b, std::size_t e) {
                 std::vector<Directed> out;
                 TableMemo memo;
-                for (std::size_t i = b; i < e; ++i) walk_span(source, begin + i, memo, out);
+                for (std::size_t i = b; i < e; ++i) walk_span(source, units, begin + i, memo, out);
                 return out;
             },
             [](std::vector<Directed> a, const std::vector<Directed>& b) {

@@ -16,7 +16,7 @@ namespace heddle {
 #endif
 }
 
-/// The same of a word. @pre bits != 0
+/// The same for a 64-bit word. @pre bits != 0
 [[nodiscard]] HEDDLE_INLINE int lowest_bit(std::uint64_t bits) {
 #if HEDDLE_DEVICE_PASS
     return __ffsll(static_cast<long long>(bits)) - 1;
@@ -25,7 +25,7 @@ namespace heddle {
 #endif
 }
 
-/// Bits that are set.
+/// The number of bits that are set.
 [[nodiscard]] HEDDLE_INLINE int count_bits(std::uint64_t bits) {
 #if HEDDLE_DEVICE_PASS
     return __popcll(bits);

@@ -7,11 +7,11 @@
 
 namespace heddle {
 
-/// Lends working memory to whichever thread asks: as many exist as threads ever worked at once.
+/// Lends working memory to threads. It makes one object per thread that works at the same time.
 template <typename T>
 class Lender {
 public:
-    /// Calls body(T&) with one that no other thread has, made by make() -> unique_ptr<T> if none is idle.
+    /// Calls body(T&) with a T that no other thread uses; make() -> unique_ptr<T> if none is idle.
     template <typename Make, typename Body>
     void with(const Make& make, const Body& body) {
         std::unique_ptr<T> mine;
@@ -27,7 +27,7 @@ public:
         const std::scoped_lock lock(mutex_);
         idle_.push_back(std::move(mine));
     }
-    /// The same where a T needs nothing to be made.
+    /// The same for a T with a default constructor.
     template <typename Body>
     void with(const Body& body) {
         with([] { return std::make_unique<T>(); }, body);

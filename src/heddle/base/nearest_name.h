@@ -5,12 +5,12 @@
 
 namespace heddle {
 
-/// Letters to insert, delete, change or swap with a neighbour to get from `a` to `b`.
+/// The number of edits that turn `a` into `b`: letters inserted, deleted, replaced or swapped.
 [[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The name that is fewest edits away from `word`, for "did you mean". Empty when none is nearer than
-/// half of the word's length, and for words of more than 64 letters.
-/// @param names  a range of std::string or std::string_view; the first of equals is taken
+/// The name that is the fewest edits away from `word`, for "did you mean". Empty if no name is
+/// nearer than half of the word's length, and for words of more than 64 letters.
+/// @param names  a range of std::string or std::string_view; the first of equally near names wins
 template <typename Names>
 [[nodiscard]] std::string_view nearest_name(std::string_view word, const Names& names) {
     std::string_view best;

@@ -6,8 +6,8 @@
 
 namespace heddle {
 
-/// The range that element `i` of many ranges laid end to end lies in.
-/// @param offsets  n + 1 numbers, not falling, the first is 0; ranges may be empty
+/// Finds the range that contains element `i`, among ranges that are stored end to end.
+/// @param offsets  n + 1 ascending numbers; the first is 0; ranges may be empty
 /// @param i        < offsets[n]
 /// @return         r with offsets[r] <= i < offsets[r + 1]
 [[nodiscard]] HEDDLE_HD constexpr std::uint64_t

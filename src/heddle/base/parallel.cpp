@@ -34,7 +34,7 @@ int thread_count() {
 
 void set_thread_count(int threads) {
     wanted_threads = threads;
-    // TBB's own ceiling also holds for libraries that use TBB behind our back (OpenVDB)
+    // TBB's own limit also applies to libraries that use TBB internally (OpenVDB)
     static std::unique_ptr<tbb::global_control> ceiling;
     ceiling.reset();
     ceiling = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
@@ -45,7 +45,7 @@ void parallel_chunks(std::size_t n,
                      std::size_t grain,
                      FunctionRef<void(std::size_t, std::size_t)> body) {
     const std::size_t chunks = (n + grain - 1) / grain;
-    tbb::task_arena arena(thread_count()); // more threads than cores are allowed: parity tests
+    tbb::task_arena arena(thread_count()); // more threads than cores: for parity tests
     arena.execute([&] {
         tbb::parallel_for(
             tbb::blocked_range<std::size_t>(0, chunks, 1),

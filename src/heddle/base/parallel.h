@@ -8,17 +8,17 @@
 
 namespace heddle {
 
-/// Sets how many threads parallel loops use from now on; 0 = all cores. Not to be called inside one.
+/// Sets the number of threads of later parallel loops; 0: all cores. Do not call it inside a loop.
 void set_thread_count(int threads);
 
-/// Threads that a parallel loop will use, >= 1.
+/// The number of threads that a parallel loop will use, >= 1.
 [[nodiscard]] int thread_count();
 
 /// Calls body(begin, end) for disjoint chunks that cover [0, n), on `thread_count()` threads.
 ///
 /// Chunk borders are multiples of `grain`: they depend on n and grain, never on the thread count.
 /// @param grain    items per chunk, >= 1
-/// @throws         the first exception a body threw; chunks not yet started are skipped
+/// @throws         the first exception that a body threw; chunks that have not started are skipped
 void parallel_chunks(std::size_t n,
                      std::size_t grain,
                      FunctionRef<void(std::size_t, std::size_t)> body);

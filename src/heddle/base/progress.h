@@ -8,19 +8,19 @@
 
 namespace heddle {
 
-/// What long work reports to and is stopped by. The default one reports nothing and never stops.
+/// The interface by which long work reports progress and is cancelled. This one reports nothing.
 ///
-/// `advance` and `cancelled` are called from any thread; `begin` from one thread between stages.
+/// `advance` and `cancelled` are called from any thread; `begin` from one thread, between phases.
 class Progress {
 public:
     virtual ~Progress() = default;
 
-    /// A stage starts: `total` units of `unit` ("steps", "voxels") are ahead.
+    /// Starts a phase: `total` units of `unit` ("steps", "voxels") are to be done.
     virtual void begin(std::string_view stage, std::string_view unit, std::int64_t total);
-    /// `units` more are done.
+    /// Reports that another `units` units are done.
     virtual void advance(std::int64_t units);
 
-    /// Asks the work to stop: it throws Error{Cancelled} at its next check. Safe in a signal handler.
+    /// Asks the work to stop: it throws Error{Cancelled} at its next check. Signal-safe.
     void cancel() noexcept { cancelled_.store(true, std::memory_order_relaxed); }
     [[nodiscard]] bool cancelled() const noexcept {
         return cancelled_.load(std::memory_order_relaxed);

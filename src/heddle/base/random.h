@@ -24,7 +24,7 @@ hash64(std::uint64_t seed, std::uint64_t a, std::uint64_t b = 0) {
     return static_cast<float>(hash >> 40) * 0x1p-24f;
 }
 
-/// A stream of hashes: draw k of stream (seed, id) is hash64(seed, id, k). Copies are cheap.
+/// A stream of hashes: draw k of the stream (seed, id) is hash64(seed, id, k). Cheap to copy.
 struct CounterRandom {
     std::uint64_t seed = 0;
     std::uint64_t id = 0;
@@ -35,7 +35,7 @@ struct CounterRandom {
     HEDDLE_HD constexpr float uniform() { return to_unit_float(next()); }
 };
 
-/// A fast stream for Monte Carlo: SplitMix64, one round a draw.             [Steele 2014]
+/// A fast stream for Monte Carlo: SplitMix64, one round per draw.                     [Steele 2014]
 struct StreamRandom {
     std::uint64_t state = 0;
 

@@ -15,7 +15,7 @@ TempFile::TempFile(const std::string& folder) : folder_(folder) {
     if (file_ < 0) {
         throw Error(ErrorCode::InvalidArgument,
                     str("cannot make a temporary file: ", std::strerror(errno)),
-                    "choose a folder that can be written, or more --memory", {.path = folder});
+                    "choose a writable folder, or raise --memory", {.path = folder});
     }
     unlink(name.c_str());
 }
@@ -34,7 +34,7 @@ std::int64_t TempFile::append(const void* data, std::size_t bytes) {
             throw Error(
                 ErrorCode::OutOfMemory,
                 str("the temporary file stops at ", size_, " bytes: ", std::strerror(errno)),
-                "free disk space there, or give more --memory", {.path = folder_});
+                "free disk space there, or raise --memory", {.path = folder_});
         }
         from += wrote;
         bytes -= static_cast<std::size_t>(wrote);

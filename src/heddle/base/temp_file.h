@@ -6,10 +6,10 @@
 
 namespace heddle {
 
-/// A nameless file that is gone with the process. Append from one thread at a time; read from any.
+/// A nameless file that disappears with the process. One thread at a time appends; any reads.
 class TempFile {
 public:
-    /// @param folder  where its bytes lie
+    /// @param folder  where the file is created
     /// @throws Error  InvalidArgument: the folder cannot be written
     explicit TempFile(const std::string& folder);
     ~TempFile();
@@ -18,10 +18,10 @@ public:
     TempFile(TempFile&&) = delete;
     TempFile& operator=(TempFile&&) = delete;
 
-    /// Writes at the end. @return the offset of the first byte
+    /// Appends `bytes` bytes. @return the offset of the first one
     /// @throws Error  OutOfMemory: the disk is full
     std::int64_t append(const void* data, std::size_t bytes);
-    /// @throws Error  Internal: fewer bytes there than asked for
+    /// @throws Error  Internal: the file has fewer bytes than asked for
     void read(std::int64_t offset, void* data, std::size_t bytes) const;
 
 private:

@@ -9,21 +9,21 @@ struct SinCos {
     float cos = 1.0f;
 };
 
-/// Largest integer <= x, |x| < 2^31, without a library call.
+/// The largest integer <= x, for |x| < 2^31, without a library call.
 [[nodiscard]] HEDDLE_HD constexpr int floor_to_int(float x) {
     const int i = static_cast<int>(x);
     return i - (static_cast<float>(i) > x ? 1 : 0);
 }
 
-/// a / b towards minus infinity, b > 0.
+/// a / b, rounded towards minus infinity; b > 0.
 template <typename T>
 [[nodiscard]] HEDDLE_HD constexpr T floor_div(T a, T b) {
     return a >= 0 ? a / b : -((-a + b - 1) / b);
 }
 
-/// Sine and cosine of a whole turn's fraction: sin(2 pi turns), cos(2 pi turns).
+/// Sine and cosine of an angle in turns: sin(2 pi turns), cos(2 pi turns).
 ///
-/// Only + - * and conversions, so every backend gives the same bits.  |turns| < 2^40.
+/// Uses only + - * and conversions, so every backend gives the same bits.  |turns| < 2^40.
 /// @return  both within 2e-7
 [[nodiscard]] HEDDLE_HD constexpr SinCos sincos_turns(double turns) {
     const auto whole = static_cast<long long>(turns * 4.0 + (turns < 0.0 ? -0.5 : 0.5));

@@ -7,7 +7,7 @@
 
 namespace heddle {
 
-/// Three numbers of one type. Aggregate, trivially copyable, the same bytes on host and device.
+/// Three numbers of one type. An aggregate, trivially copyable, the same bytes on host and device.
 template <typename T>
 struct Vec3 {
     T x{};
@@ -56,14 +56,14 @@ template <typename T>
     return std::sqrt(dot(a, a));
 }
 
-/// `a` scaled to length 1; `fallback` where `a` has no direction (zero, or too small to square).
+/// `a` scaled to length 1; `fallback` if `a` has no direction (it is zero or too small to square).
 template <typename T>
 [[nodiscard]] HEDDLE_HD inline Vec3<T> normalize(Vec3<T> a, Vec3<T> fallback = {T(0), T(0), T(1)}) {
     const T n = length(a);
     return n > T(0) ? a * (T(1) / n) : fallback;
 }
 
-/// A unit vector at right angles to the unit vector `n`: no branch cut except at n = -z.
+/// A unit vector perpendicular to the unit vector `n`; discontinuous only at n = -z.
 ///                                                     [Duff 2017, "Building an orthonormal basis"]
 [[nodiscard]] HEDDLE_HD inline Vec3f any_perpendicular(Vec3f n) {
     const float sign = n.z < 0.0f ? -1.0f : 1.0f;

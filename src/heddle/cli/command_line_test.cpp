@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <sstream>
 
 namespace heddle::cli {
 namespace {
@@ -38,7 +39,7 @@ TEST(CommandLine, AnOptionThatRepeatsKeepsItsValuesInOrder) {
                         "heddle material");
     EXPECT_EQ(a.texts("set"), (std::vector<std::string>{"b.alpha=1", "a.name=2"}));
     EXPECT_EQ(a.texts("output"), std::vector<std::string>{});
-    EXPECT_NE(help_text(material_command()).find("may be given again"), std::string::npos);
+    EXPECT_NE(help_text(material_command()).find("can be repeated"), std::string::npos);
 }
 
 TEST(CommandLine, NegativeNumbersAreValues) {
@@ -56,14 +57,15 @@ TEST(CommandLine, WrongWordsAreNamedWithWhatWouldBeRight) {
     EXPECT_EQ(with({"--voxles", "5"}), "unknown option '--voxles'; did you mean '--voxels'?");
     EXPECT_EQ(with({"--lobes", "9"}), "--lobes: 9 is out of range; it must be 1 to 8");
     EXPECT_EQ(with({"--lobes", "two"}), "--lobes: 'two' is not a whole number");
-    EXPECT_EQ(with({"--lobes", "1", "--lobes", "2"}), "--lobes is given 2 times");
+    EXPECT_EQ(with({"--lobes", "1", "--lobes", "2"}), "--lobes is given 2 times; give it once");
     EXPECT_EQ(with({"--fit", "lst"}),
               "--fit: 'lst' is not one of moments or last; did you mean 'last'?");
     EXPECT_EQ(with({"--voxel-size", "0"}), "--voxel-size: 0 is out of range; it must be > 0");
     EXPECT_EQ(with({"--voxel-size", "nan"}), "--voxel-size: 'nan' is not a number");
     EXPECT_EQ(with({"--voxel-size", "1,2"}),
-              "--voxel-size: '1,2' has 2 numbers; it takes 1 or 3, joined by ','");
-    EXPECT_EQ(with({"--memory", "lots"}), "--memory: 'lots' is not a size; write 4G or 1500M");
+              "--voxel-size: '1,2' has 2 numbers; expected 1 or 3, separated by ','");
+    EXPECT_EQ(with({"--memory", "lots"}),
+              "--memory: 'lots' is not a size; write for example 4G or 1500M");
     EXPECT_EQ(with({"more.bcc"}), "unexpected argument 'more.bcc'; see heddle voxelize --help");
     EXPECT_EQ(usage_error({"in.bcc"}), "option --output is missing; see heddle voxelize --help");
     EXPECT_EQ(usage_error({"-o", "x.vdb"}), "FILE is missing; see heddle voxelize --help");
@@ -81,6 +83,66 @@ TEST(CommandLine, EveryPresetIsAValueThatItsOwnRowAllows) {
             if (option.preset.empty() || option.preset.front() == '(') continue;
             EXPECT_EQ(option.values.problem(option.preset), "") << command.name << option.names;
         }
+    }
+}
+
+TEST(CommandLine, HelpHasEachRowUnderTheHeadingOfItsGroup) {
+    for (const Command& command : commands()) {
+        std::vector<Option> options = command.options;
+        options.insert(options.end(), common_options().begin(), common_options().end());
+        const std::string text = help_text(command);
+        std::size_t line = 0, heading = 0;
+        std::string group;
+        for (const Option& option : options) {
+            ASSERT_FALSE(option.group.empty()) << command.name << " " << option.names;
+            if (option.group != group) {
+                group = option.group;
+                const std::string words = "\n\n" + group + ":\n";
+                heading = text.find(words);
+                ASSERT_NE(heading, std::string::npos) << command.name << " " << group;
+                EXPECT_GT(heading, line) << command.name << " " << group;
+                EXPECT_EQ(text.find(words, heading + 1), std::string::npos) << group;
+            }
+            line = text.find("\n  " + option.names, heading);
+            ASSERT_NE(line, std::string::npos) << command.name << " " << option.names;
+            EXPECT_EQ(text.substr(heading + 2, line - heading - 2).find("\n\n"), std::string::npos)
+                << command.name << " " << option.names << " is not under " << group;
+        }
+    }
+}
+
+TEST(CommandLine, HelpIsAtMostAHundredColumnsWide) {
+    for (const Command& command : commands()) {
+        std::istringstream lines(help_text(command));
+        for (std::string line; std::getline(lines, line);) {
+            if (line.starts_with("usage:") || line == command.summary) continue;
+            EXPECT_LE(line.size(), 100u) << command.name << ": " << line;
+        }
+    }
+}
+
+TEST(CommandLine, JoinedListsHaveEachGroupInOnePiece) {
+    const auto row = [](const std::string& name) {
+        return Option{name, "", "", flag(), "", "Does something."};
+    };
+    const std::vector<Option> rows =
+        joined({grouped("a", {row("--one")}), grouped("b", {row("--two")}),
+                grouped("a", {row("--three")})});
+    ASSERT_EQ(rows.size(), 3u);
+    EXPECT_EQ(rows[0].names, "--one");
+    EXPECT_EQ(rows[1].names, "--three");
+    EXPECT_EQ(rows[2].names, "--two");
+    EXPECT_EQ(rows[1].group, "a");
+}
+
+TEST(CommandLine, TextsAreSentences) {
+    for (const Command& command : commands()) {
+        std::vector<Option> options = command.options;
+        options.insert(options.end(), common_options().begin(), common_options().end());
+        for (const Option& option : options) {
+            EXPECT_TRUE(option.text.ends_with('.')) << command.name << " " << option.names;
+        }
+        EXPECT_TRUE(command.summary.ends_with('.')) << command.name;
     }
 }
 

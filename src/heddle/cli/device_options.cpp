@@ -9,12 +9,14 @@
 namespace heddle::cli {
 
 std::vector<Option> device_options() {
-    return {
-        {"--device", "WHERE", "auto", one_of({"cpu", "cuda", "auto"}), "",
-         "the same bits from all; auto: cuda where there is one and it does what is asked"},
-        {"--device-memory", "BYTES", "(9/10 of what is free)", bytes(), "K, M, G",
-         "memory of the device that is kept to"},
-    };
+    return grouped(
+        "Memory and device",
+        {
+            {"--device", "WHERE", "auto", one_of({"cpu", "cuda", "auto"}), "",
+             "Where voxels are computed; the result is the same. auto: CUDA if a GPU is present and supports the options, else the CPU."},
+            {"--device-memory", "BYTES", "(9/10 of the free device memory)", bytes(),
+             "bytes; suffix K, M, G or T", "Limit of the memory used on the CUDA device."},
+        });
 }
 
 DeviceChoice
@@ -23,7 +25,7 @@ choose_device(const Arguments& arguments, const VoxelizeOptions& options, Report
     const std::string& where = arguments.text("device");
     const bool memory = arguments.given("device-memory");
     if (where == "cpu") {
-        if (memory) throw UsageError("--device-memory is of no use with --device cpu");
+        if (memory) throw UsageError("--device-memory cannot be used with --device cpu");
         return choice;
     }
     const executor::Device device = executor::find_device();
@@ -31,7 +33,7 @@ choose_device(const Arguments& arguments, const VoxelizeOptions& options, Report
     if (where == "cuda") {
         if (device.name.empty()) {
             throw Error(ErrorCode::Device, str("--device cuda: ", device.why),
-                        "use --device cpu: the same bits");
+                        "use --device cpu, which gives the same voxels");
         }
         if (!cannot.empty()) {
             throw Error(ErrorCode::Unsupported, str("--device cuda: ", cannot), "use --device cpu");

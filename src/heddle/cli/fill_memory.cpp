@@ -26,8 +26,8 @@ std::int64_t voxels_that_fit(const VoxelizeOptions& options,
     };
     if (!fits(kLeast)) {
         throw Error(ErrorCode::OutOfMemory,
-                    str("voxelize: not even ", kLeast, " voxels along the longest axis fit into ",
-                        limit >> 20, " MiB"),
+                    str("voxelize: even ", kLeast,
+                        " voxels along the longest axis do not fit into ", limit >> 20, " MiB"),
                     "give a larger --memory");
     }
     std::int64_t least = kLeast; // fits

@@ -32,10 +32,10 @@ bool take(std::string_view& text, char c) {
 } // namespace
 
 std::vector<Option> frame_options() {
-    return {
-        {"--frames", "A-B[:STEP]", "(FILE is one file)", any_text(), "",
-         "a sequence: FILE and OUT.vdb hold a number as %04d; give --voxel-size, or each frame's "
-         "voxels have their own"}};
+    return grouped(
+        "Input and output",
+        {{"--frames", "A-B[:STEP]", "(a single file)", any_text(), "",
+          "Voxelizes a sequence: FILE and OUT.vdb contain the frame number as %04d. Give --voxel-size, or the voxel size differs between frames."}});
 }
 
 std::vector<std::int64_t> parse_frames(const std::string& text) {
@@ -44,12 +44,13 @@ std::vector<std::int64_t> parse_frames(const std::string& text) {
     const std::int64_t last = take(rest, '-') ? take_number(rest) : -1;
     const std::int64_t step = take(rest, ':') ? take_number(rest) : 1;
     if (first < 0 || last < first || step < 1 || !rest.empty()) {
-        throw UsageError(str("--frames: '", text,
-                             "' is no range; give A-B or A-B:STEP, A at most B, as in 1-24:2"));
+        throw UsageError(
+            str("--frames: '", text,
+                "' is not a range; give A-B or A-B:STEP with A <= B, for example 1-24:2"));
     }
     const std::int64_t count = (last - first) / step + 1;
     if (count > kMostFrames) {
-        throw UsageError(str("--frames: '", text, "' has ", count, " frames (limit 10^6)"));
+        throw UsageError(str("--frames: '", text, "' has ", count, " frames; the limit is 10^6"));
     }
     std::vector<std::int64_t> numbers;
     for (std::int64_t i = 0; i < count; ++i) numbers.push_back(first + i * step);
@@ -63,8 +64,9 @@ std::string frame_path(const std::string& pattern, std::int64_t number, const st
     const bool zero = take(rest, '%') && take(rest, '0');
     const std::int64_t width = zero ? take_number(rest) : -1;
     if (width < 1 || width > 9 || !take(rest, 'd') || rest.find('%') != std::string_view::npos) {
-        throw UsageError(str(option, ": '", pattern,
-                             "' must hold the frame's number once, as %04d, with --frames"));
+        throw UsageError(
+            str(option, ": '", pattern,
+                "' must contain the frame number exactly once, as %04d, with --frames"));
     }
     std::string digits = std::to_string(number);
     const auto least = static_cast<std::size_t>(width);

@@ -34,7 +34,7 @@ GenerateOptions generate_options(const Arguments& arguments) {
         const std::vector<std::string> counts = split(arguments.text("counts"), ',');
         const std::optional<std::int64_t> nx = parse_integer(counts[0]);
         const std::optional<std::int64_t> ny = parse_integer(counts[1]);
-        if (!nx || !ny) throw UsageError("--counts: both must be whole numbers");
+        if (!nx || !ny) throw UsageError("--counts: both values must be whole numbers");
         options.nx = *nx;
         options.ny = *ny;
     }
@@ -47,9 +47,12 @@ GenerateOptions generate_options(const Arguments& arguments) {
 void write_geometry(const Geometry& geometry, GenerateKind kind, const std::string& path) {
     const std::string suffix = suffix_for(kind);
     if (suffix == ".glb") return write_glb(geometry, path);
-    const CurveSet& set = geometry.curves.front();
-    if (suffix == ".hair") return write_hair(set, path);
-    write_bcc(set, path);
+    if (suffix == ".bcc") return write_bcc(geometry.curves, path);
+    if (geometry.curves.size() != 1) {
+        throw Error(ErrorCode::Internal, str("generate: ", geometry.curves.size(),
+                                             " sets of strands, a .hair file takes one"));
+    }
+    write_hair(geometry.curves.front(), path);
 }
 
 void run_generate(const Arguments& arguments, Report& report, ProgressBar& bar) {
@@ -59,8 +62,8 @@ void run_generate(const Arguments& arguments, Report& report, ProgressBar& bar) 
     const std::int64_t bytes = predict_bytes(options);
     if (const std::int64_t free = available_bytes(); free > 0 && bytes > free) {
         throw Error(ErrorCode::OutOfMemory,
-                    str("generate: ", show_bytes(static_cast<double>(bytes)), " needed, ",
-                        show_bytes(static_cast<double>(free)), " free"),
+                    str("generate: ", show_bytes(static_cast<double>(bytes)), " are needed and ",
+                        show_bytes(static_cast<double>(free)), " are free"),
                     "give smaller --counts");
     }
     bar.begin("generate", "nodes", predict_nodes(options));
@@ -82,25 +85,32 @@ void run_generate(const Arguments& arguments, Report& report, ProgressBar& bar) 
 
 Command generate_command() {
     return {
-        "generate",
-        "knit, weave, hair, grass or a brushed plate, from nothing",
-        {
-            {"KIND", "", "",
-             one_of({"knit", "rib", "cable", "plain", "twill", "satin", "hair", "curls", "brushed",
-                     "grass"}),
-             "", "what is made: cloth (.bcc), strands (.hair) or a mesh (.glb)", true},
-            {"-o, --output", "FILE", "", any_text(), "",
-             "where it goes: .bcc for cloth, .hair for hair and curls, .glb for the rest", true},
-            {"--counts", "NX,NY", "(a swatch)", numbers(2, 2, 1, 1e9), "",
-             "loops and rows, warp and weft yarns, strands and points, texels, or blades and "
-             "quads"},
-            {"--shape", "SHAPE", "flat", one_of({"flat", "folded", "hanging"}), "",
-             "how cloth lies"},
-            {"--radius", "R", "(the kind's)", positive(), "scene units",
-             "of a yarn or strand; half the width of a blade"},
-            {"--spacing", "S", "(the kind's)", positive(), "scene units",
-             "between yarns, roots or texels"},
-        },
+        "generate", "Makes a procedural test object: knit, weave, hair, grass or a brushed plate.",
+        joined({
+            grouped(
+                "Input and output",
+                {
+                    {"KIND", "", "",
+                     one_of({"knit", "rib", "cable", "plain", "twill", "satin", "hair", "curls",
+                             "brushed", "grass"}),
+                     "", "Kind of object; knit to satin are cloth.", true},
+                    {"-o, --output", "FILE", "", any_text(), "",
+                     "Output file: .bcc for cloth, .hair for hair and curls, .glb for brushed and grass.",
+                     true},
+                }),
+            grouped(
+                "Shape",
+                {
+                    {"--counts", "NX,NY", "(a small swatch)", numbers(2, 2, 1, 1e9), "",
+                     "Knits: loops per row, rows. Weaves: warp yarns, weft yarns. Hair and curls: strands, points per strand. Brushed: texels. Grass: blades, quads per blade."},
+                    {"--shape", "SHAPE", "flat", one_of({"flat", "folded", "hanging"}), "",
+                     "How the cloth lies; other kinds are flat only."},
+                    {"--radius", "R", "(depends on KIND)", positive(), "scene units",
+                     "Radius of a yarn or strand, or half the width of a grass blade."},
+                    {"--spacing", "S", "(depends on KIND)", positive(), "scene units",
+                     "Distance between neighbouring yarns, roots or texels."},
+                }),
+        }),
         run_generate};
 }
 

@@ -101,7 +101,8 @@ Bounds report_meshes(Report& report, const std::vector<Mesh>& meshes) {
     std::string with = normals ? "normals" : "";
     if (tangents) with += with.empty() ? "tangents" : ", tangents";
     if (uvs) with += with.empty() ? "uv" : ", uv";
-    report.text("all have", with.empty() ? "positions" : with);
+    with = with.empty() ? "positions" : with;
+    report.add("all_have", "vertex data", with, with + (meshes.size() > 1 ? " in every mesh" : ""));
     return bounds;
 }
 
@@ -148,7 +149,7 @@ void report_plan(Report& report,
         plan = plan_voxelize(geometry, options, bar);
     } catch (const Error& e) {
         if (e.code() == ErrorCode::Cancelled) throw;
-        return report.text("voxelizing", e.what());
+        return report.add("voxelizing", "cannot voxelize", e.what(), e.what());
     }
     const Vec3d size = plan.lattice.voxel_size;
     const Vec3i n = plan.voxel_hi - plan.voxel_lo;
@@ -169,7 +170,7 @@ void report_input(Report& report,
     report_bounds(report, bounds);
     for (const YarnType& yarn : geometry.yarns) {
         report.text("yarn", yarn.name);
-        report.count("fibers", yarn.fiber_count(), "in a yarn");
+        report.count("fibers", yarn.fiber_count(), "per yarn");
     }
     report_materials(report, geometry.materials);
     report_textures(report, geometry.textures);
@@ -219,7 +220,7 @@ std::string show_grids(const std::vector<GridSummary>& grids) {
             names += str(names.empty() ? "" : ", ", g.name, " (", g.type, ")");
         }
     }
-    return sums == 0 ? names : str(names, ", ", sums, " sums (int64)");
+    return sums == 0 ? names : str(names, ", ", sums, " grids of sums (int64)");
 }
 
 void report_volume(Report& report, const std::string& path) {
@@ -231,10 +232,10 @@ void report_volume(Report& report, const std::string& path) {
     const Vec3d size = info.lattice.voxel_size;
     report.text("name", info.name);
     report.add("voxel_size", "voxel size", to_json(size), show(size) + " scene units");
-    report.count("subvoxels", info.lattice.subvoxels, "each way in a voxel");
+    report.count("subvoxels", info.lattice.subvoxels, "per voxel axis");
     report.count("voxels", info.voxel_count);
     report.count("lobes", info.lobe_count);
-    report.count("most lobes", info.max_lobes, "in a voxel");
+    report.add("most_lobes", "maximum lobes", info.max_lobes, str(info.max_lobes, " per voxel"));
     report_materials(report, info.materials);
     for (const YarnType& yarn : info.yarns) report.text("yarn", yarn.name);
     report.text("command", info.command);
@@ -250,8 +251,8 @@ void report_volume(Report& report, const std::string& path) {
     report_levels(report, levels, grids);
     if (levels.size() > 1) {
         report.text("lod", info.lod);
-        report.add("approximate", "built from", info.approximate,
-                   info.approximate ? "stored lobes (approximate)" : "sums");
+        report.add("approximate", "levels built from", info.approximate,
+                   info.approximate ? "stored lobes (approximate)" : "columns and sums");
     }
     if (info.voxel_count > 0) {
         const double all = static_cast<double>(bytes) / static_cast<double>(info.voxel_count);
@@ -280,13 +281,12 @@ void run_info(const Arguments& arguments, Report& report, ProgressBar& bar) {
 } // namespace
 
 Command info_command() {
-    std::vector<Option> options{
-        {"FILE", "", "", any_text(), "", "anything that voxelize reads, or a .vdb of ours", true}};
-    for (const std::vector<Option>& more :
-         {resolution_options(), load_options(), model_options()}) {
-        options.insert(options.end(), more.begin(), more.end());
-    }
-    return {"info", "what a file holds, and what voxelizing it would take", options, run_info};
+    return {"info", "Shows what a file contains and what voxelizing it would need.",
+            joined({grouped("Input",
+                            {{"FILE", "", "", any_text(), "",
+                              "Any file that voxelize reads, or a .vdb written by heddle.", true}}),
+                    resolution_options(), load_options(), model_options()}),
+            run_info};
 }
 
 } // namespace heddle::cli

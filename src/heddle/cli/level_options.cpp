@@ -16,12 +16,14 @@ std::vector<std::string> method_names() {
 } // namespace
 
 std::vector<Option> level_options() {
-    return {
-        {"--levels", "N", "all", any_text(), "",
-         "levels of detail above the finest, at most; all: until two voxels an axis are left"},
-        {"--lod", "METHOD", "moments", one_of(method_names()), "",
-         "how lobes merge from level to level; moments and wasserstein keep up to K"},
-    };
+    return grouped(
+        "Levels of detail",
+        {
+            {"--levels", "N", "all", any_text(), "",
+             "Maximum number of levels above the finest; all: until at most two voxels per axis are left."},
+            {"--lod", "METHOD", "moments", one_of(method_names()), "",
+             "Method of merging lobes into the next level; moments and wasserstein keep up to --lobes per voxel."},
+        });
 }
 
 LodOptions lod_options(const Arguments& arguments) {
@@ -41,7 +43,8 @@ LodOptions lod_options(const Arguments& arguments) {
 
 std::unique_ptr<LevelBuilder> level_builder(const Arguments& arguments) {
     const LodOptions options = lod_options(arguments);
-    return options.max_levels == 0 ? nullptr : std::make_unique<LevelBuilder>(options);
+    if (options.max_levels == 0 && !arguments.given("correlation")) return nullptr;
+    return std::make_unique<LevelBuilder>(options); // it finds what level 0's neighbours share too
 }
 
 VoxelLevels
@@ -62,7 +65,7 @@ VoxelLevels finish_levels(LevelBuilder* builder, std::unique_ptr<VoxelSource> le
 
 void report_levels(Report& report, const VoxelLevels& levels) {
     const VoxelGridInfo& finest = levels.front()->info();
-    if (finest.voxel_count == 0) report.note("nothing is covered: the volume is empty");
+    if (finest.voxel_count == 0) report.note("the volume is empty: no voxel is covered");
     report.count("voxels", finest.voxel_count);
     report.count("lobes", finest.lobe_count);
     std::int64_t voxels = 0;
@@ -72,8 +75,8 @@ void report_levels(Report& report, const VoxelLevels& levels) {
         lobes += level->info().lobe_count;
     }
     report.count("levels", static_cast<std::int64_t>(levels.size()),
-                 str("of ", show_count(static_cast<double>(voxels)), " voxels, ",
-                     show_count(static_cast<double>(lobes)), " lobes in all"));
+                 str("(", show_count(static_cast<double>(voxels)), " voxels and ",
+                     show_count(static_cast<double>(lobes)), " lobes in total)"));
 }
 
 } // namespace heddle::cli

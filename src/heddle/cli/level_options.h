@@ -16,7 +16,7 @@ namespace heddle::cli {
 /// @throws UsageError  a number of levels that cannot be
 [[nodiscard]] LodOptions lod_options(const Arguments& arguments);
 
-/// Builds what the rows of level_options() ask for; null with --levels 0.
+/// Builds what the rows of level_options() ask for; null with --levels 0 and no --correlation.
 [[nodiscard]] std::unique_ptr<LevelBuilder> level_builder(const Arguments& arguments);
 
 /// Level 0 and those that `builder` made over it; level 0 alone without one.

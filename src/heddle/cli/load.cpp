@@ -49,35 +49,48 @@ YarnOptions yarn_options(const Arguments& arguments) {
 
 void refuse_without(const Arguments& arguments, const char* option, bool usable, const char* need) {
     if (arguments.given(option) && !usable) {
-        throw UsageError(str("--", option, " is of no use here: ", need));
+        throw UsageError(str("--", option, " needs ", need));
     }
 }
 
 } // namespace
 
 std::vector<Option> load_options() {
-    return {
-        {"--yarn-radius", "R", "(what the file says, or half the distance of neighbouring yarns)",
-         positive(), "scene units", "radius of the yarn or hair"},
-        {"--repeat", "NX,NY", "1,1", numbers(2, 2, 1, 10000), "tiles",
-         "how often a .pyp pattern is repeated"},
-    };
+    return grouped(
+        "Yarn and hair",
+        {
+            {"--yarn-radius", "R", "(from the file, or half the distance of neighbouring yarns)",
+             positive(), "scene units", "Radius of the yarn or hair."},
+            {"--repeat", "NX,NY", "1,1", numbers(2, 2, 1, 10000), "tiles",
+             "Number of repetitions of a periodic .pyp pattern."},
+        });
 }
 
 std::vector<Option> model_options() {
-    return {
-        {"--yarn", "PRESET|FILE", "(each curve is one solid round fiber)", any_text(), "",
-         str("yarn model: ", preset_names(), "; or a .toml, or Zhao 2016 fits in .txt")},
-        {"--fibers", "N", "(what the model says)", integer(1, 1'000'000), "",
-         "fibers in all of a yarn"},
-        {"--fiber-radius", "R", "(what the model says, or the yarn's radius where solid)",
-         positive(), "of the yarn model",
-         "radius of a fiber; without --yarn: of each curve, in scene units"},
-        {"--height-map", "IMAGE", "", any_text(), "",
-         "displaces every mesh along its normals; needs uv"},
-        {"--height-scale", "S", "1", number(-kInf, kInf), "scene units", "displacement of white"},
-        {"--height-offset", "O", "0", number(-kInf, kInf), "scene units", "displacement of black"},
-    };
+    return joined({
+        grouped(
+            "Yarn and hair",
+            {
+                {"--yarn", "PRESET|FILE", "(each curve is one solid round fiber)", any_text(), "",
+                 str("Yarn model: ", preset_names(),
+                     ", a .toml file, or a .txt file of fits after Zhao et al. 2016.")},
+                {"--fibers", "N", "(from the yarn model)", integer(1, 1'000'000), "",
+                 "Number of fibers in a yarn, over all plies; needs --yarn."},
+                {"--fiber-radius", "R", "(from the yarn model, or the yarn radius without --yarn)",
+                 positive(), "yarn model units",
+                 "Radius of a fiber; without --yarn, the radius of each curve in scene units."},
+            }),
+        grouped(
+            "Height map of meshes",
+            {
+                {"--height-map", "IMAGE", "", any_text(), "",
+                 "Displaces all meshes along their normals by this image; needs texture coordinates."},
+                {"--height-scale", "S", "1", number(-kInf, kInf), "scene units",
+                 "Displacement of white, in addition to that of black."},
+                {"--height-offset", "O", "0", number(-kInf, kInf), "scene units",
+                 "Displacement of black."},
+            }),
+    });
 }
 
 Geometry load_geometry(const std::string& path, const Arguments& arguments) {
@@ -87,11 +100,11 @@ Geometry load_geometry(const std::string& path, const Arguments& arguments) {
 void apply_model(Geometry& geometry, const Arguments& arguments) {
     const bool curves = !geometry.curves.empty();
     for (const char* option : {"yarn", "fiber-radius", "yarn-radius"}) {
-        refuse_without(arguments, option, curves, "the file holds no curves");
+        refuse_without(arguments, option, curves, "curves, but the file holds none");
     }
-    refuse_without(arguments, "fibers", arguments.given("yarn"), "it needs --yarn");
+    refuse_without(arguments, "fibers", arguments.given("yarn"), "--yarn");
     for (const char* option : {"height-scale", "height-offset"}) {
-        refuse_without(arguments, option, arguments.given("height-map"), "it needs --height-map");
+        refuse_without(arguments, option, arguments.given("height-map"), "--height-map");
     }
     apply_yarn(geometry, yarn_options(arguments));
     if (arguments.given("height-map")) {
@@ -106,7 +119,7 @@ void check_output(const std::string& path, const std::string& suffix, const std:
     std::error_code ignored;
     // OutputFile would write to a device, but a .vdb needs seeks: said before the work starts
     if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
-        throw Error(ErrorCode::CannotWrite, "it is a folder or a device, not a file",
+        throw Error(ErrorCode::CannotWrite, "this is a folder or a device, not a file",
                     "write to another place", {.path = path});
     }
     if (suffix_of(path) != suffix) {

@@ -26,9 +26,9 @@ void check_memory(const std::vector<VoxelGridInfo>& infos, const std::string& pa
     }
     if (needed <= available_bytes()) return;
     throw Error(ErrorCode::OutOfMemory,
-                str("its levels need about ", needed >> 20, " MiB, ", available_bytes() >> 20,
-                    " MiB are free"),
-                "free some, or use a machine with more", {.path = path});
+                str("its levels need about ", needed >> 20, " MiB, but only ",
+                    available_bytes() >> 20, " MiB are free"),
+                "free some memory, or use a machine with more", {.path = path});
 }
 
 void run_lod(const Arguments& arguments, Report& report, ProgressBar& bar) {
@@ -44,7 +44,8 @@ void run_lod(const Arguments& arguments, Report& report, ProgressBar& bar) {
     const std::vector<VoxelGridInfo> infos = read_infos(path);
     check_memory(infos, path);
     if (arguments.given("exact") && !infos.front().fields.masks) {
-        throw Error(ErrorCode::BadFile, "holds no columns and sums, so levels would be approximate",
+        throw Error(ErrorCode::BadFile,
+                    "holds no columns and sums, so its levels would be approximate",
                     "voxelize it with --keep-masks, or leave out --exact", {.path = path});
     }
     VoxelLevels levels = read_levels(path);
@@ -55,7 +56,8 @@ void run_lod(const Arguments& arguments, Report& report, ProgressBar& bar) {
     report.text("output", output);
     report_levels(report, levels);
     if (levels.front()->info().approximate) {
-        report.note("levels are approximate: the file holds no columns and sums (--keep-masks)");
+        report.note(
+            "the levels are approximate because the file holds no columns and sums (voxelize --keep-masks)");
     }
     for (const auto& [stage, seconds] : bar.stages()) report.seconds(stage, seconds);
     const std::chrono::duration<double> total = std::chrono::steady_clock::now() - start;
@@ -66,16 +68,25 @@ void run_lod(const Arguments& arguments, Report& report, ProgressBar& bar) {
 } // namespace
 
 Command lod_command() {
-    std::vector<Option> options{
-        {"FILE", "", "", any_text(), "", "a .vdb that voxelize wrote", true},
-        {"-o, --output", "OUT.vdb", "", any_text(), "", "where the volume goes", true},
-    };
-    for (const Option& row : level_options()) options.push_back(row);
-    options.push_back({"--lobes", "K", "(as the file)", integer(1, 8), "",
-                       "most orientation lobes in a voxel of the levels above the finest"});
-    options.push_back({"--exact", "", "", flag(), "",
-                       "refuses a file without --keep-masks, whose levels would be approximate"});
-    return {"lod", "builds the levels of detail of a .vdb again", options, run_lod};
+    return {
+        "lod", "Rebuilds the levels of detail of a .vdb.",
+        joined({
+            grouped("Input and output",
+                    {
+                        {"FILE", "", "", any_text(), "", "A .vdb written by heddle.", true},
+                        {"-o, --output", "OUT.vdb", "", any_text(), "", "Output volume.", true},
+                    }),
+            level_options(),
+            grouped(
+                "Levels of detail",
+                {
+                    {"--lobes", "K", "(as in the file)", integer(1, 8), "",
+                     "Maximum number of orientation lobes per voxel above the finest level."},
+                    {"--exact", "", "", flag(), "",
+                     "Fails if the levels would be approximate, because the file was written without --keep-masks."},
+                }),
+        }),
+        run_lod};
 }
 
 } // namespace heddle::cli

@@ -57,8 +57,8 @@ public:
         std::string name = (std::filesystem::temp_directory_path(none) / "heddle-XXXXXX").string();
         if (none || ::mkdtemp(name.data()) == nullptr) {
             throw Error(ErrorCode::CannotWrite,
-                        "lod-report: there is no folder for temporary files",
-                        "set TMPDIR to one that can be written to");
+                        "lod-report: cannot create a folder for temporary files",
+                        "set TMPDIR to a writable folder");
         }
         path_ = name;
     }
@@ -101,8 +101,8 @@ std::vector<std::int64_t> weigh(VoxelLevels levels, Progress& progress) {
 VoxelLevels read_pyramid(const std::string& path, ProgressBar& bar) {
     if (read_infos(path).size() < 2) {
         throw Error(ErrorCode::BadFile,
-                    "has the finest level alone, there is nothing above it to report on",
-                    "build levels by 'heddle lod'", {.path = path});
+                    "has only the finest level, so there are no levels to measure",
+                    "build levels with 'heddle lod'", {.path = path});
     }
     bar.begin("read", "files", 1);
     VoxelLevels levels = read_levels(path);
@@ -155,7 +155,7 @@ MethodRow build(const Scope& scope,
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     if (levels.size() < 2) {
         throw UsageError(
-            "--part: the part fits two voxels an axis, nothing is above it; ask for more");
+            "--part: the part is at most two voxels wide on every axis and has no levels; give a larger number");
     }
     reporter.take(name_of(method), levels);
     return {seconds.count(), weigh(std::move(levels), bar), {}};
@@ -189,7 +189,7 @@ void run_lod_report(const Arguments& arguments, Report& report, ProgressBar& bar
     const Scope scope = scope_of(path, arguments, methods, bar);
     if (scope.part) {
         report.note(str("measured on a part: ", scope.part->info().voxel_count, " of ",
-                        scope.file[0]->info().voxel_count, " voxels in whole blocks (--part)"));
+                        scope.file[0]->info().voxel_count, " voxels, in whole blocks (--part)"));
     }
     if (is_slow(methods)) {
         const double seconds =
@@ -225,21 +225,33 @@ void run_lod_report(const Arguments& arguments, Report& report, ProgressBar& bar
 
 Command lod_report_command() {
     return {
-        "lod-report",
-        "measures the levels of detail of a .vdb, method beside method",
-        {
-            {"FILE", "", "", any_text(), "", "a .vdb with levels", true},
-            {"--methods", "A,B,...", "moments,single,naive,random,interpolate", any_text(), "",
-             "levels are built by each of these; wasserstein too is known, and slow"},
-            {"--parents", "N", "2000", integer(1, 1000000), "a level",
-             "voxels that are measured against all finest ones below, at most"},
-            {"--part", "N", "(all; 50000 with wasserstein)", integer(1, std::int64_t{1} << 40),
-             "voxels of the finest level", "builds and measures on blocks chosen by --seed alone"},
-            {"--lobes", "K", "(as the file)", integer(1, 8), "",
-             "most orientation lobes in a voxel of the built levels"},
-            {"--plot", "OUT.png", "", any_text(), "",
-             "a picture of the errors by level, a line a method"},
-        },
+        "lod-report", "Measures the errors of the levels of detail of a .vdb, for several methods.",
+        joined({
+            grouped("Input and output",
+                    {
+                        {"FILE", "", "", any_text(), "", "A .vdb with levels of detail.", true},
+                        {"--plot", "OUT.png", "", any_text(), "",
+                         "Writes a plot of the errors by level, with one line per method."},
+                    }),
+            grouped(
+                "Methods",
+                {
+                    {"--methods", "A,B,...", "moments,single,naive,random,interpolate", any_text(),
+                     "",
+                     "Methods to build and measure levels with; wasserstein is available too, but slow."},
+                    {"--lobes", "K", "(as in the file)", integer(1, 8), "",
+                     "Maximum number of orientation lobes per voxel of the built levels."},
+                }),
+            grouped(
+                "Effort",
+                {
+                    {"--parents", "N", "2000", integer(1, 1000000), "voxels per level",
+                     "Maximum number of voxels that are compared with all finest voxels below them."},
+                    {"--part", "N", "(all; 50000 with wasserstein)",
+                     integer(1, std::int64_t{1} << 40), "voxels of the finest level",
+                     "Builds and measures only some blocks, chosen by --seed, with about this many voxels."},
+                }),
+        }),
         run_lod_report};
 }
 

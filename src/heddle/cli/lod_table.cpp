@@ -33,8 +33,8 @@ std::string show_optional(const std::optional<double>& value, int decimals) {
 std::string coverage_words(CoverageTruth truth) {
     switch (truth) {
     case CoverageTruth::Union: return "the union of all finest columns";
-    case CoverageTruth::File: return "the file's own levels (no columns are kept)";
-    case CoverageTruth::None: return "nothing: no columns are kept";
+    case CoverageTruth::File: return "the file's own levels (no columns are stored)";
+    case CoverageTruth::None: return "nothing, because no columns are stored";
     }
     return {};
 }
@@ -64,11 +64,12 @@ std::string head_text(const LodTable& table) {
     const auto count = [](std::int64_t n) { return show_count(static_cast<double>(n)); };
     std::string text = str("# Levels of detail of `", table.file, "`\n\n");
     text += str("Finest level: ", count(table.voxels), " voxels, ",
-                show_fixed(ratio(table.lobes, table.voxels), 3), " lobes a voxel");
+                show_fixed(ratio(table.lobes, table.voxels), 3), " lobes per voxel");
     if (table.part_of > 0) {
-        text += str(", a part of ", count(table.part_of), ": levels above 5 lack children");
+        text += str(", a part of ", count(table.part_of),
+                    " voxels (above level 5, children are missing)");
     }
-    text += str("; in the file ", show_bytes(static_cast<double>(table.finest_bytes)));
+    text += str("; size in the file ", show_bytes(static_cast<double>(table.finest_bytes)));
     if (table.mask_bytes > 0) {
         text +=
             str(" and ", show_bytes(static_cast<double>(table.mask_bytes)), " of columns and sums");
@@ -76,15 +77,14 @@ std::string head_text(const LodTable& table) {
     text += str(". The file's levels were built by `", table.lod, "`. ");
     if (table.approximate)
         text +=
-            "It has no sums: levels are built from stored lobes (approximate) and the finest lobes "
-            "are weighed by mean depth, where the file's levels were weighed by true sums: its own "
-            "errors hold that difference. ";
+            "The file has no sums: levels are built from the stored lobes (approximate), and the finest lobes are weighted by mean optical depth. "
+            "The file's own levels were weighted by sums, so their errors include that difference. ";
     return text + str("Coverage is compared with ", coverage_words(table.coverage), ".\n");
 }
 
 std::string method_table(const LodTable& table) {
-    std::string text = head_of(
-        {"method", "build s", "M finest voxels a second", "bytes above 0", "times level 0"});
+    std::string text = head_of({"method", "build time, s", "million finest voxels per second",
+                                "size above level 0", "times level 0"});
     const std::int64_t finest = table.part_of > 0 ? 0 : table.finest_bytes;
     for (const MethodRow& m : table.methods) {
         const double seconds = m.build_seconds.value_or(0.0);
@@ -101,9 +101,9 @@ std::string level_table(const LodTable& table) {
     std::vector<std::string> head{"level",
                                   "method",
                                   "voxels",
-                                  "lobes a voxel",
-                                  "bytes",
-                                  "bytes a voxel",
+                                  "lobes per voxel",
+                                  "size",
+                                  "bytes per voxel",
                                   "parents",
                                   "sigma error",
                                   "L1 of densities",
@@ -182,13 +182,19 @@ PlotLine line_of(const std::string& name) {
 } // namespace
 
 std::string markdown_of(const LodTable& table) {
-    return str(
+    std::string text = str(
         head_text(table), "\n", method_table(table), "\n", level_table(table), "\n",
-        "Bytes: of the grids as a .vdb holds them; `times level 0` is the whole pyramid over "
-        "level 0 without columns and sums.\nErrors: against all finest lobes below a voxel. "
-        "sigma: mean over 500 directions of the difference of projected area. L1: over 768 "
-        "cells of the sphere, the truth's own noise is about .016. Moment: largest difference of "
-        "an entry of the second moment. Coverage: over the three axes.\n");
+        "Size: of the grids in a .vdb; `times level 0` is the size of all levels divided by that of level 0, without columns and sums.\n"
+        "Errors: compared with all finest lobes below a voxel. "
+        "Sigma error: mean over 500 directions of the difference in projected area. "
+        "L1 of densities: over 768 cells of the sphere; the noise of the reference is about 0.016. "
+        "Moment: largest difference of an entry of the second moment. "
+        "Coverage: over the three axes.");
+    if (any_lost(table)) {
+        text +=
+            " kind lost: share of the directed area whose kind (tangents or normals) no lobe keeps; the other errors leave it out.";
+    }
+    return text + "\n";
 }
 
 void add_json(const LodTable& table, Report& report) {

@@ -79,13 +79,9 @@ std::string quote_line(const std::vector<std::string>& words) {
 std::string overview() {
     return "heddle " HEDDLE_VERSION ": yarn, hair and meshes to sparse anisotropic volumes\n"
            "usage: heddle COMMAND ... [--help]\n"
-           "make:   generate (knit, weave, hair, grass, brushed plate), slice (a yarn's section), "
-           "voxelize "
-           "(a .vdb)\n"
-           "look:   info (what a file holds), preview, view, render (pictures), lod-report (errors "
-           "of "
-           "levels)\n"
-           "change: lod (the levels of a .vdb), material (its materials), export (to Mitsuba)\n"
+           "make:   generate (knit, weave, hair, grass, brushed plate), slice (image of a yarn's section), voxelize (a .vdb)\n"
+           "look:   info (contents of a file), preview, view, render (pictures), lod-report (errors of levels)\n"
+           "change: lod (levels of a .vdb), material (its materials), export (to Mitsuba)\n"
            "first:  heddle generate knit -o knit.bcc\n"
            "then:   heddle voxelize knit.bcc --yarn cotton -o knit.vdb\n"
            "and:    heddle preview knit.vdb -o knit.png\n";
@@ -138,7 +134,7 @@ int guarded_run(const std::vector<std::string>& words) {
     } catch (const Error& e) {
         return fail(e);
     } catch (const std::bad_alloc&) {
-        return fail(DeviceOrMemory, "out of memory; give --memory less than what is free");
+        return fail(DeviceOrMemory, "out of memory; set --memory to less than the free memory");
     } catch (const std::exception& e) {
         return fail(Failed, str("internal error: ", e.what()));
     }

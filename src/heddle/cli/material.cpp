@@ -54,11 +54,13 @@ std::string listed(const std::vector<std::string>& names) {
     return text;
 }
 
-/// "; did you mean 'x'?", or what there is.
-std::string suggestion(const std::string& word, const std::vector<std::string>& names) {
+/// "; did you mean 'x'?", or all that would be right.
+/// @param all  says what the names are
+std::string
+suggestion(const std::string& word, const std::vector<std::string>& names, const std::string& all) {
     const std::string_view near = nearest_name(word, names);
     if (!near.empty()) return str("; did you mean '", near, "'?");
-    return str("; there are: ", listed(names));
+    return str("; ", all, ": ", listed(names));
 }
 
 [[noreturn]] void refuse(const std::string& what) {
@@ -75,7 +77,7 @@ std::size_t find_material(const std::vector<Material>& materials, const std::str
     const auto at = std::find_if(materials.begin(), materials.end(), named);
     if (at != materials.end()) {
         if (std::find_if(at + 1, materials.end(), named) != materials.end()) {
-            refuse(str("more than one material is called '", word, "'; give its number"));
+            refuse(str("more than one material is named '", word, "'; give its number"));
         }
         return static_cast<std::size_t>(at - materials.begin());
     }
@@ -88,7 +90,7 @@ std::size_t find_material(const std::vector<Material>& materials, const std::str
         names.push_back(name_or_number(materials, i));
     }
     if (names.empty()) refuse("the file has no materials");
-    refuse(str("no material '", word, "'", suggestion(word, names)));
+    refuse(str("no material '", word, "'", suggestion(word, names, "the file has")));
 }
 
 const Key& find_key(const std::string& word) {
@@ -97,7 +99,7 @@ const Key& find_key(const std::string& word) {
         if (key.name == word) return key;
         names.push_back(key.name);
     }
-    refuse(str("no key '", word, "'", suggestion(word, names)));
+    refuse(str("no key '", word, "'", suggestion(word, names, "the keys are")));
 }
 
 /// One NAME.KEY=VALUE, taken apart.
@@ -145,7 +147,7 @@ std::vector<Material> edit_materials(const std::vector<Material>& before,
         if (after[i].name == before[i].name) continue;
         for (std::size_t j = 0; j < after.size(); ++j) {
             if (i != j && after[i].name == after[j].name) {
-                refuse(str("two materials would be called '", after[i].name, "'"));
+                refuse(str("two materials would be named '", after[i].name, "'"));
             }
         }
     }
@@ -183,7 +185,7 @@ void run_material(const Arguments& arguments, Report& report, ProgressBar& bar) 
     const bool edits = arguments.given("set");
     const std::string& output = arguments.given("output") ? arguments.text("output") : path;
     if (arguments.given("output")) {
-        if (!edits) throw UsageError("--output is of no use without --set");
+        if (!edits) throw UsageError("--output needs --set");
         check_output(output, ".vdb");
     }
     bar.begin("read", "files", 1);
@@ -197,9 +199,9 @@ void run_material(const Arguments& arguments, Report& report, ProgressBar& bar) 
     for (std::size_t i = 0; i < materials.size() && !info.fields.tangents; ++i) {
         const bool surface = materials[i].kind == MaterialKind::Surface;
         if (!surface || materials[i].anisotropy == info.materials[i].anisotropy) continue;
-        report.note(str("the file has no tangents, which the anisotropy of '",
-                        name_or_number(materials, i),
-                        "' needs: give its mesh anisotropy and voxelize again"));
+        report.note(str(
+            "the anisotropy of '", name_or_number(materials, i),
+            "' needs tangents, which the file does not store; set anisotropy in the mesh's material and voxelize again"));
     }
     report.text("file", output);
     report_materials(report, materials);
@@ -211,16 +213,23 @@ Command material_command() {
     std::vector<std::string> names;
     for (const Key& key : keys()) names.push_back(key.name);
     return {
-        "material",
-        "the materials of a .vdb, to look at or to change",
-        {
-            {"FILE", "", "", any_text(), "", "a .vdb that voxelize wrote", true},
-            {"--set", "NAME.KEY=VALUE", "", any_text(), "",
-             "changes a material, no voxel; KEY: " + listed(names) +
-                 "; albedo takes R,G,B, linear; a number can stand for NAME",
-             false, true},
-            {"-o, --output", "OUT.vdb", "(FILE)", any_text(), "", "where the changed file goes"},
-        },
+        "material", "Lists or changes the materials of a .vdb.",
+        joined({
+            grouped("Input and output",
+                    {
+                        {"FILE", "", "", any_text(), "", "A .vdb written by heddle.", true},
+                        {"-o, --output", "OUT.vdb", "(FILE itself)", any_text(), "",
+                         "Output file of the changed volume; needs --set."},
+                    }),
+            grouped(
+                "Materials",
+                {
+                    {"--set", "NAME.KEY=VALUE", "", any_text(), "",
+                     "Changes a material; the voxels stay as they are. NAME: a material's name or number. KEY: " +
+                         listed(names) + ". albedo takes linear R,G,B.",
+                     false, true},
+                }),
+        }),
         run_material};
 }
 

@@ -104,20 +104,20 @@ TEST_F(MaterialCommand, WithoutSetItListsThem) {
 TEST_F(MaterialCommand, WrongEditsAreRefusedWithWhatWouldBeRight) {
     EXPECT_EQ(refused({"coton.alpha=1"}), "--set: no material 'coton'; did you mean 'cotton'?");
     EXPECT_EQ(refused({"velvet.alpha=1"}),
-              "--set: no material 'velvet'; there are: cotton, 1, a.b");
-    EXPECT_EQ(refused({"3.alpha=1"}), "--set: no material '3'; there are: cotton, 1, a.b");
+              "--set: no material 'velvet'; the file has: cotton, 1, a.b");
+    EXPECT_EQ(refused({"3.alpha=1"}), "--set: no material '3'; the file has: cotton, 1, a.b");
     EXPECT_EQ(refused({"cotton.albdo=1,1,1"}), "--set: no key 'albdo'; did you mean 'albedo'?");
-    EXPECT_NE(refused({"cotton.kind=surface"}).find("no key 'kind'; there are: name, albedo"),
+    EXPECT_NE(refused({"cotton.kind=surface"}).find("no key 'kind'; the keys are: name, albedo"),
               std::string::npos);
     EXPECT_EQ(refused({"cotton.albedo=1,1"}),
-              "--set cotton.albedo: '1,1' has 2 numbers; it takes 3, joined by ','");
+              "--set cotton.albedo: '1,1' has 2 numbers; expected 3, separated by ','");
     EXPECT_EQ(refused({"cotton.alpha=1.5"}),
               "--set cotton.alpha: 1.5 is out of range; it must be 0 to 1");
     EXPECT_EQ(refused({"cotton.alpha=nan"}), "--set cotton.alpha: 'nan' is not a number");
-    EXPECT_EQ(refused({"cotton.name="}), "--set cotton.name: it is empty");
+    EXPECT_EQ(refused({"cotton.name="}), "--set cotton.name: the value is empty");
     EXPECT_EQ(refused({"cotton"}), "--set: 'cotton' is not NAME.KEY=VALUE");
     EXPECT_EQ(refused({"cotton.alpha"}), "--set: 'cotton.alpha' is not NAME.KEY=VALUE");
-    EXPECT_EQ(refused({"cotton.name=a.b"}), "--set: two materials would be called 'a.b'");
+    EXPECT_EQ(refused({"cotton.name=a.b"}), "--set: two materials would be named 'a.b'");
     EXPECT_EQ(refused({"cotton.alpha=1", "0.alpha=0.5"}),
               "--set: 'cotton.alpha' is given more than once");
     EXPECT_EQ(refused({"cotton.alpha=0.5", "cotton.alhpa=1"}),

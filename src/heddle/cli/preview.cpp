@@ -61,27 +61,40 @@ void run_preview(const Arguments& arguments, Report& report, ProgressBar& bar) {
 
 Command preview_command() {
     constexpr double kInf = std::numeric_limits<double>::infinity();
-    return {"preview",
-            "a picture of a .vdb, for looking at what is in it",
-            {
-                {"FILE", "", "", any_text(), "", "a .vdb that voxelize wrote", true},
-                {"-o, --output", "OUT.png", "", any_text(), "", "where the picture goes", true},
-                {"--level", "N", "0", integer(0, 1000), "",
-                 "of detail; 0 = the finest, each next one has voxels twice as large"},
-                {"--color", "BY", "albedo", one_of(color_names()), "",
-                 "what the colour shows: direction and width are the heaviest lobe's"},
-                {"--from", "X,Y,Z", "(three quarters from the front, from above)",
-                 numbers(3, 3, -kInf, kInf), "any length", "direction from the object to the eye"},
-                {"--up", "AXIS", "(z where the object lies flat in x and y, or y)",
-                 one_of({"x", "y", "z"}), "", "the axis that points up in the picture"},
-                {"--size", "WxH", "1024x1024", numbers(2, 2, 1, 16384, 'x'), "pixels",
-                 "of the picture"},
-                {"--view-angle", "A", "0", number(0, 179), "degrees",
-                 "across the picture's height; 0 = parallel rays"},
-                {"--rays", "N", "1", integer(1, 8), "per pixel and axis", "more are smoother"},
-                {"--transparent", "", "", flag(), "", "keeps alpha, where white would be behind"},
-            },
-            run_preview};
+    return {
+        "preview", "Draws a quick picture of a .vdb, for inspection.",
+        joined({
+            grouped("Input and output",
+                    {
+                        {"FILE", "", "", any_text(), "", "A .vdb written by heddle.", true},
+                        {"-o, --output", "OUT.png", "", any_text(), "", "Output picture.", true},
+                    }),
+            grouped(
+                "Picture",
+                {
+                    {"--size", "WxH", "1024x1024", numbers(2, 2, 1, 16384, 'x'), "pixels",
+                     "Size of the picture."},
+                    {"--color", "BY", "albedo", one_of(color_names()), "",
+                     "Quantity shown as colour; tangent and width are those of the heaviest lobe, block is a cell of 32^3 voxels."},
+                    {"--level", "N", "0", integer(0, 1000), "",
+                     "Level of detail; 0 = the finest. Each level doubles the voxel size."},
+                    {"--rays", "N", "1", integer(1, 8), "per pixel and axis",
+                     "Rays for antialiasing; N x N per pixel."},
+                    {"--transparent", "", "", flag(), "",
+                     "Keeps the alpha channel; otherwise the background is white."},
+                }),
+            grouped("Camera",
+                    {
+                        {"--from", "X,Y,Z", "(three-quarter view from the front and above)",
+                         numbers(3, 3, -kInf, kInf), "any length",
+                         "Direction from the object to the camera."},
+                        {"--up", "AXIS", "(z if the object is flat in x and y, else y)",
+                         one_of({"x", "y", "z"}), "", "Axis that points up in the picture."},
+                        {"--view-angle", "A", "0", number(0, 179), "degrees",
+                         "Field of view across the picture's height; 0 = parallel projection."},
+                    }),
+        }),
+        run_preview};
 }
 
 } // namespace heddle::cli

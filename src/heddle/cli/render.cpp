@@ -4,6 +4,7 @@
 #include <heddle/cli/load.h>
 #include <heddle/cli/terminal/progress_bar.h>
 #include <heddle/cli/terminal/report.h>
+#include <heddle/cli/terminal/text.h>
 #include <heddle/io/file/input_file.h>
 #include <heddle/stage/render_job.h>
 #include <heddle/stage/scene_hash.h>
@@ -26,8 +27,8 @@ Scene asked_scene(const Arguments& arguments) {
         object.instances.resize(1);
         scene.objects.push_back(object);
         if (arguments.given("geometry")) {
-            throw UsageError("--geometry is of no use here: a .vdb has voxels alone; name its "
-                             "geometry in a scene");
+            throw UsageError(
+                "--geometry cannot be used with a .vdb, which holds only voxels; name the geometry in a scene");
         }
     } else {
         scene = read_scene(path);
@@ -35,7 +36,7 @@ Scene asked_scene(const Arguments& arguments) {
     if (arguments.given("size")) {
         const std::vector<double> size = arguments.numbers("size", 'x');
         if (size[0] * size[1] > 0x1p28) { // as a scene's
-            throw UsageError("--size: more than 2^28 pixels; make the picture smaller");
+            throw UsageError("--size: the picture has more than 2^28 pixels; make it smaller");
         }
         scene.width = static_cast<std::int32_t>(size[0]);
         scene.height = static_cast<std::int32_t>(size[1]);
@@ -91,12 +92,13 @@ void run_render(const Arguments& arguments, Report& report, ProgressBar& bar) {
     report.add("size", "size", {scene.width, scene.height},
                str(scene.width, " x ", scene.height, " pixels"));
     report.count("samples", outcome.samples, "per pixel");
-    if (job.resume) report.count("resumed from", outcome.resumed_from, "per pixel");
-    report.number("noise", outcome.noise);
+    if (job.resume) report.count("resumed from", outcome.resumed_from, "samples per pixel");
+    report.number("noise", outcome.noise, "RMS standard error of the luminance");
     const double paths =
         static_cast<double>(outcome.samples - outcome.resumed_from) * scene.width * scene.height;
     report.seconds("first picture", outcome.first_picture_seconds);
-    report.seconds("levels", outcome.load_seconds);
+    report.add("levels_seconds", "reading levels", outcome.load_seconds,
+               show_seconds(outcome.load_seconds));
     report.seconds("render", outcome.render_seconds);
     if (outcome.render_seconds > 0.0) {
         report.number("rate", paths / outcome.render_seconds, "paths/s");
@@ -109,31 +111,49 @@ void run_render(const Arguments& arguments, Report& report, ProgressBar& bar) {
 
 Command render_command() {
     return {
-        "render",
-        "a picture of a scene file or a .vdb by path tracing",
-        {
-            {"FILE", "", "", any_text(), "", "a scene in .toml, or a .vdb that is framed and lit",
-             true},
-            {"-o, --output", "OUT.exr|OUT.png", "", any_text(), "", "where the picture goes", true},
-            {"--geometry", "", "", flag(), "",
-             "traces the geometry of objects that have some, not their volumes"},
-            {"--level", "N", "(by the footprint of each ray)", integer(0, 1000), "",
-             "of detail everywhere; 0 = the finest"},
-            {"--level-offset", "X", "0", number(-8, 8), "levels",
-             "added to what the footprint asks for; below 0 is finer"},
-            {"--transport", "MODEL", "(the scene's, or auto)", one_of(transport_names()), "",
-             "how voxels along a ray are put together"},
-            {"--samples", "N", "(the scene's, or 64)", integer(1, 1'000'000'000), "per pixel",
-             "stops there"},
-            {"--time", "T", "", positive(), "seconds", "stops after the pass that ends then"},
-            {"--noise", "E", "", positive(), "of the mean luminance",
-             "stops when the pixels' root mean square error is below it"},
-            {"--size", "WxH", "(the scene's, or 512x512)", numbers(2, 2, 1, 65536, 'x'), "pixels",
-             "of the picture"},
-            {"--exposure", "E", "0", number(-kInf, kInf), "stops", "of a .png: times 2^E"},
-            {"--resume", "", "", flag(), "",
-             "goes on from OUTPUT.checkpoint, which a stopped render leaves"},
-        },
+        "render", "Path traces a scene file or a .vdb.",
+        joined({
+            grouped(
+                "Input and output",
+                {
+                    {"FILE", "", "", any_text(), "",
+                     "A .toml scene, or a .vdb, for which a camera and lights are chosen.", true},
+                    {"-o, --output", "OUT.exr|OUT.png", "", any_text(), "", "Output picture.",
+                     true},
+                    {"--resume", "", "", flag(), "",
+                     "Continues from OUTPUT.checkpoint, which a stopped render leaves behind."},
+                }),
+            grouped("Picture",
+                    {
+                        {"--size", "WxH", "(from the scene, or 512x512)",
+                         numbers(2, 2, 1, 65536, 'x'), "pixels", "Size of the picture."},
+                        {"--exposure", "E", "0", number(-kInf, kInf), "stops",
+                         "Exposure of a .png: colours are multiplied by 2^E."},
+                    }),
+            grouped(
+                "When to stop",
+                {
+                    {"--samples", "N", "(from the scene, or 64; no limit with --time or --noise)",
+                     integer(1, 1'000'000'000), "per pixel", "Stops after this many samples."},
+                    {"--time", "T", "(no limit)", positive(), "seconds",
+                     "Stops at about this time, reading the scene included; at least one sample is taken."},
+                    {"--noise", "E", "(no limit)", positive(), "luminance",
+                     "Stops when the root mean square over pixels of the standard error of the luminance is below E."},
+                }),
+            grouped(
+                "Volumes",
+                {
+                    {"--transport", "MODEL", "(from the scene, or auto)", one_of(transport_names()),
+                     "",
+                     "How the opacities of voxels along a ray combine; auto: footprint for fibers whose volume stores footprints, else product."},
+                    {"--level", "N", "(from the footprint of each ray)", integer(0, 1000), "",
+                     "Uses one level of detail for all rays; 0 = the finest."},
+                    {"--level-offset", "X", "0", number(-8, 8), "levels",
+                     "Is added to the level chosen from the ray's footprint; negative values are finer."},
+                    {"--geometry", "", "", flag(), "",
+                     "Traces the geometry of objects that have one, instead of their volumes."},
+                }),
+        }),
         run_render};
 }
 

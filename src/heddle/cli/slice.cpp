@@ -92,10 +92,9 @@ void run_slice(const Arguments& arguments, Report& report, ProgressBar& bar) {
         report.text("yarn-file", arguments.text("yarn-file"));
     }
     report.count("fibers", made.yarn.slice_fibers);
-    report.number("twist", static_cast<double>(made.yarn.twist),
-                  "radians per unit length of the yarn model");
+    report.number("twist", static_cast<double>(made.yarn.twist), "radians per yarn model unit");
     report.number("yarn radius", static_cast<double>(made.yarn.model_radius),
-                  "of the yarn model: half the image's side");
+                  "yarn model units, half of the image's side");
 }
 
 } // namespace
@@ -103,20 +102,31 @@ void run_slice(const Arguments& arguments, Report& report, ProgressBar& bar) {
 Command slice_command() {
     return {
         "slice",
-        "the section of a procedural yarn as an image: RGB albedo, alpha the fibers' share",
-        {
-            {"YARN", "", "", any_text(), "", "a preset, a .toml, or a Zhao 2016 fit in .txt", true},
-            {"-o, --output", "OUT.png", "", any_text(), "", "where the image goes", true},
-            {"--size", "N", "256", integer(1, 4096), "texels", "along each side"},
-            {"--fibers", "N", "(what the model says)", integer(1, 1'000'000), "",
-             "fibers in all of the yarn"},
-            {"--yarn-file", "OUT.toml", "", any_text(), "",
-             "writes the yarn of that slice too: voxelize --yarn takes it"},
-            {"--occlusion", "OUT.png", "", any_text(), "",
-             "writes how much light from around reaches each texel, for previews"},
-            {"--mipmaps", "OUT.png", "", any_text(), "",
-             "writes the sizes below it side by side, each as opaque from the side as the first"},
-        },
+        "Draws the cross-section of a procedural yarn as an image: albedo, and the fibers' volume fraction as alpha.",
+        joined({
+            grouped(
+                "Input and output",
+                {
+                    {"YARN", "", "", any_text(), "",
+                     "Yarn model: a preset, a .toml file, or a .txt file of a fit after Zhao et al. 2016.",
+                     true},
+                    {"-o, --output", "OUT.png", "", any_text(), "",
+                     "Output image of the cross-section.", true},
+                    {"--yarn-file", "OUT.toml", "", any_text(), "",
+                     "Also writes a yarn model of this image, for voxelize --yarn."},
+                    {"--occlusion", "OUT.png", "", any_text(), "",
+                     "Also writes the ambient light that reaches each texel, for previews."},
+                    {"--mipmaps", "OUT.png", "", any_text(), "",
+                     "Also writes all smaller sizes side by side; each keeps the opacity seen from the side."},
+                }),
+            grouped("Image",
+                    {
+                        {"--size", "N", "256", integer(1, 4096), "texels",
+                         "Width and height of the image."},
+                        {"--fibers", "N", "(from the yarn model)", integer(1, 1'000'000), "",
+                         "Number of fibers in the yarn, over all plies."},
+                    }),
+        }),
         run_slice};
 }
 

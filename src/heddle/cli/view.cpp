@@ -3,6 +3,7 @@
 #include <heddle/cli/load.h>
 #include <heddle/cli/terminal/progress_bar.h>
 #include <heddle/cli/terminal/report.h>
+#include <heddle/cli/terminal/text.h>
 #include <heddle/cli/view_options.h>
 #include <heddle/io/file/output_file.h>
 #include <heddle/io/image/image.h>
@@ -20,6 +21,7 @@
 #include <limits>
 #include <numbers>
 #include <sstream>
+#include <utility>
 
 namespace heddle::cli {
 namespace {
@@ -34,7 +36,7 @@ void make_folder(const std::string& folder) {
     std::error_code failed;
     std::filesystem::create_directories(folder, failed);
     if (!std::filesystem::is_directory(folder, failed)) {
-        throw Error(ErrorCode::CannotWrite, "cannot make this folder", "write to another place",
+        throw Error(ErrorCode::CannotWrite, "cannot create this folder", "write to another place",
                     {.path = folder});
     }
 }
@@ -87,9 +89,12 @@ void draw_frames(const viewer::Subject& subject,
     report.text("driver", context.driver());
     report.count("slices", session.slice_count());
     report.text("blend", session.blend());
-    report.seconds("sort a frame", sum.sort * each);
-    report.seconds("shadow a frame", sum.shadow * each);
-    report.seconds("draw a frame", sum.draw * each);
+    for (const auto& [stage, seconds] :
+         {std::pair{"sort", sum.sort}, std::pair{"shadow", sum.shadow},
+          std::pair{"draw", sum.draw}}) {
+        report.add(str(stage, "_a_frame_seconds"), str(stage, " per frame"), seconds * each,
+                   show_seconds(seconds * each));
+    }
 }
 
 void open_window(const viewer::Subject& subject,
@@ -106,8 +111,8 @@ void open_window(const viewer::Subject& subject,
     bar.check();
     report.text("driver", counts.driver);
     report.count("inputs shown", counts.inputs);
-    report.number("median answer", counts.median_ms, "ms");
-    report.number("slowest answer", counts.worst_ms, "ms");
+    report.add("median_answer", "median response", counts.median_ms, str(counts.median_ms, " ms"));
+    report.add("slowest_answer", "slowest response", counts.worst_ms, str(counts.worst_ms, " ms"));
 }
 
 void load_curves(viewer::Subject& subject, const Arguments& arguments, Report& report) {
@@ -155,7 +160,7 @@ void run_view(const Arguments& arguments, Report& report, ProgressBar& bar) {
 
 Command view_command() {
     return {"view",
-            "a window on yarns as shaded slices and on volumes, by OpenGL; or pictures of them",
+            "Shows yarns as shaded slices, and volumes, in an OpenGL window or as pictures.",
             view_options(), run_view};
 }
 

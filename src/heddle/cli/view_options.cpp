@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace heddle::cli {
 namespace {
@@ -97,22 +98,23 @@ void check_view(const Arguments& arguments) {
     const bool volume = is_volume_file(arguments) || arguments.given("volume");
     const std::string color = arguments.text("color");
     if (headless && !arguments.given("output")) {
-        throw UsageError("--headless needs a folder for its pictures: -o DIR");
+        throw UsageError("--headless needs a folder for the pictures; give -o DIR");
     }
     for (const char* option : {"frames", "scene"}) {
         if (headless || !arguments.given(option)) continue;
-        throw UsageError(str("--", option, " is of no use here: it needs --headless"));
+        throw UsageError(str("--", option, " needs --headless"));
     }
     if (arguments.given("volume") && is_volume_file(arguments)) {
-        throw UsageError("--volume is of no use here: it needs curves to be shown with");
+        throw UsageError(
+            "--volume cannot be used with a .vdb as FILE; it shows voxels beside curves");
     }
     if (!volume && (arguments.given("scene") || shows_voxels(arguments) || color == "grid")) {
-        throw UsageError("no voxels are there to be shown: open a .vdb, or give --volume X.vdb");
+        throw UsageError("there are no voxels to show; open a .vdb, or give --volume X.vdb");
     }
     const std::vector<std::string>& colors =
         shows_voxels(arguments) ? voxel_colors() : slice_colors();
     if (std::find(colors.begin(), colors.end(), color) == colors.end()) {
-        throw UsageError(str("--color ", color, " is none of ",
+        throw UsageError(str("--color ", color, " is not available for ",
                              shows_voxels(arguments) ? "voxels" : "slices",
                              "; see heddle view --help"));
     }
@@ -137,60 +139,84 @@ viewer::Settings view_settings(const Arguments& arguments, const viewer::Subject
 
 std::vector<Option> view_options() {
     constexpr double kInf = std::numeric_limits<double>::infinity();
-    std::vector<Option> options{
-        {"FILE", "", "", any_text(), "", "curves: .bcc .hair .data .pyp; or a .vdb of ours", true},
-        {"--volume", "X.vdb", "", any_text(), "", "voxels to be shown beside curves"},
-        {"-o, --output", "DIR", "(here)", any_text(), "",
-         "where the window saves; with --headless: folder of the pictures, frame_0000.png on"},
-        {"--headless", "", "", flag(), "", "pictures, without a window or a display"},
-        {"--frames", "N", "1", integer(1, 10000), "pictures",
-         "with --headless: once around the object"},
-        {"--scene", "", "", flag(), "",
-         "with --headless: a scene for render beside the pictures, with the first one's camera and "
-         "light"},
-    };
-    for (const std::vector<Option>& more : {load_options(), model_options()}) {
-        for (const Option& row : more) {
-            if (row.key().rfind("height-", 0) != 0) options.push_back(row);
-        }
-    }
-    const std::vector<Option> more{
-        {"--from", "X,Y,Z", "0.3,-0.6,1", numbers(3, 3, -kInf, kInf), "any length",
-         "direction from the object to the eye, of the first picture"},
-        {"--up", "AXIS", "auto", one_of({"auto", "x", "y", "z"}), "",
-         "points up in the picture; pictures go around it; auto: z of what lies flat, else y"},
-        {"--light", "X,Y,Z", "-0.5,0.6,1", numbers(3, 3, -kInf, kInf), "any length",
-         "direction from the object to the light"},
-        {"--target", "X,Y,Z", "(the middle of all)", numbers(3, 3, -kInf, kInf), "scene units",
-         "what is in the picture's middle"},
-        {"--zoom", "Z", "1", positive(), "", "1 = all of the object, from any side"},
-        {"--view-angle", "A", "35", number(0, 170), "degrees",
-         "across the picture's height; 0 = parallel rays"},
-        {"--size", "WxH", "960x960", numbers(2, 2, 1, 8192, 'x'), "pixels", "of a picture"},
-        {"--show", "WHAT", "slices", one_of({"slices", "voxels"}), "",
-         "of curves with --volume; a .vdb alone is shown as voxels"},
-        {"--color", "MODE", "shaded",
-         one_of({"shaded", "direction", "grid", "density", "tangent", "width", "material", "block",
-                 "level"}),
-         "",
-         "of slices: shaded; direction: x^2, y^2, z^2 of the fiber's as red, green, blue; grid: of "
-         "the direction that voxels store; of voxels: all but direction and grid"},
-        {"--opacity", "K", "1", positive(), "", "multiplies how much slices and voxels hide"},
-        {"--level", "N", "(by each pixel's width)", integer(0, 1000), "",
-         "of voxels; 0 = the finest"},
-        {"--blocks", "", "", flag(), "", "draws edges of occupied blocks of 32 voxels each way"},
-        {"--white-block", "X,Y,Z", "", numbers(3, 3, -1e6, 1e6), "blocks",
-         "shows this block in white, voxel by voxel; of slices with --color grid"},
-        {"--blend", "MODE", "sorted", one_of({"sorted", "weighted", "placed"}), "",
-         "weighted: no order shows, also taken where slices exceed --memory; placed: as they come, "
-         "to compare"},
-        {"--memory", "BYTES", "(what one buffer of the driver holds)", bytes(), "K, M, G",
-         "of slices in view and their order"},
-        {"--no-shadows", "", "", flag(), "", "leaves out the shadow map"},
-        {"--no-occlusion", "", "", flag(), "", "leaves out what fibers hide in their section"},
-    };
-    options.insert(options.end(), more.begin(), more.end());
-    return options;
+    std::vector<Option> yarn = joined({load_options(), model_options()});
+    std::erase_if(yarn, [](const Option& row) { return row.key().starts_with("height-"); });
+    return joined({
+        grouped(
+            "Input and output",
+            {
+                {"FILE", "", "", any_text(), "",
+                 "Curves (.bcc .hair .data .pyp) or a .vdb written by heddle.", true},
+                {"--volume", "X.vdb", "", any_text(), "",
+                 "A volume to show beside the curves of FILE."},
+                {"-o, --output", "DIR", "(the current folder)", any_text(), "",
+                 "Folder for saved files; required with --headless, which writes frame_0000.png and so on."},
+            }),
+        grouped(
+            "Without a window",
+            {
+                {"--headless", "", "", flag(), "",
+                 "Writes pictures instead of opening a window; needs no display."},
+                {"--frames", "N", "1", integer(1, 10000), "pictures",
+                 "Number of pictures, once around the object; needs --headless."},
+                {"--scene", "", "", flag(), "",
+                 "Also writes a scene for render with the first picture's camera and light; needs --headless."},
+            }),
+        grouped(
+            "Camera",
+            {
+                {"--size", "WxH", "960x960", numbers(2, 2, 1, 8192, 'x'), "pixels",
+                 "Size of the window or of a picture."},
+                {"--from", "X,Y,Z", "0.3,-0.6,1", numbers(3, 3, -kInf, kInf), "any length",
+                 "Direction from the object to the camera, in the first picture."},
+                {"--up", "AXIS", "auto", one_of({"auto", "x", "y", "z"}), "",
+                 "Axis that points up and that the pictures turn around; auto: z for a flat object, else y."},
+                {"--target", "X,Y,Z", "(the centre of the object)", numbers(3, 3, -kInf, kInf),
+                 "scene units", "Point in the middle of the picture."},
+                {"--zoom", "Z", "1", positive(), "",
+                 "Magnification; at 1 the whole object fits from any side."},
+                {"--view-angle", "A", "35", number(0, 170), "degrees",
+                 "Field of view across the picture's height; 0 = parallel projection."},
+            }),
+        grouped(
+            "Look",
+            {
+                {"--show", "WHAT", "slices", one_of({"slices", "voxels"}), "",
+                 "What to show of curves with --volume; a .vdb alone is shown as voxels."},
+                {"--color", "MODE", "shaded",
+                 one_of({"shaded", "direction", "grid", "density", "tangent", "width", "material",
+                         "block", "level"}),
+                 "",
+                 "Slices: shaded, direction (x^2, y^2, z^2 of the fiber direction as red, green, blue) or grid (the same of the direction stored in the voxels). Voxels: all modes but direction and grid."},
+                {"--light", "X,Y,Z", "-0.5,0.6,1", numbers(3, 3, -kInf, kInf), "any length",
+                 "Direction from the object to the light."},
+                {"--opacity", "K", "1", positive(), "",
+                 "Multiplies the density of slices and voxels."},
+                {"--no-shadows", "", "", flag(), "", "Draws without shadows."},
+                {"--no-occlusion", "", "", flag(), "",
+                 "Draws slices without the occlusion between fibers of the same cross-section."},
+            }),
+        std::move(yarn),
+        grouped(
+            "Levels and blocks",
+            {
+                {"--level", "N", "(from the width of each pixel)", integer(0, 1000), "",
+                 "Level of detail of voxels; 0 = the finest."},
+                {"--blocks", "", "", flag(), "",
+                 "Draws the edges of occupied blocks of 32^3 voxels."},
+                {"--white-block", "X,Y,Z", "", numbers(3, 3, -1e6, 1e6), "blocks",
+                 "Shows this block in white, voxel by voxel; slices show it with --color grid only."},
+            }),
+        grouped(
+            "Blending and memory",
+            {
+                {"--blend", "MODE", "sorted", one_of({"sorted", "weighted", "placed"}), "",
+                 "Draw order of slices. sorted: by depth; weighted: independent of order, also used if slices exceed --memory; placed: unsorted, for comparison."},
+                {"--memory", "BYTES", "(size of the driver's largest buffer)", bytes(),
+                 "bytes; suffix K, M, G or T",
+                 "Limit of the memory for visible slices and their order."},
+            }),
+    });
 }
 
 } // namespace heddle::cli

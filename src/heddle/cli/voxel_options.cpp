@@ -8,13 +8,15 @@
 namespace heddle::cli {
 
 std::vector<Option> resolution_options() {
-    return {
-        {"--voxel-size", "X[,Y,Z]", "(from --voxels)",
-         numbers(1, 3, 0.0, std::numeric_limits<double>::infinity(), ',', true), "scene units",
-         "edge of a voxel; three numbers where voxels are not cubes"},
-        {"--voxels", "N", "512", integer(1, std::int64_t{1} << 30), "voxels",
-         "along the longest axis"},
-    };
+    return grouped(
+        "Resolution",
+        {
+            {"--voxels", "N", "512", integer(1, std::int64_t{1} << 30), "voxels",
+             "Number of voxels along the longest axis."},
+            {"--voxel-size", "X[,Y,Z]", "(from --voxels)",
+             numbers(1, 3, 0.0, std::numeric_limits<double>::infinity(), ',', true), "scene units",
+             "Edge length of a voxel; three numbers for voxels that are not cubes."},
+        });
 }
 
 VoxelizeOptions resolution_from(const Arguments& arguments) {
@@ -24,7 +26,7 @@ VoxelizeOptions resolution_from(const Arguments& arguments) {
     options.writer_bytes_per_leaf = kVdbWriterBytesPerLeaf;
     if (!arguments.given("voxel-size")) return options;
     if (arguments.given("voxels")) {
-        throw UsageError("--voxel-size and --voxels say the same thing twice; give one of them");
+        throw UsageError("--voxel-size and --voxels both set the resolution; give one of them");
     }
     const std::vector<double> size = arguments.numbers("voxel-size");
     const bool cube = size.size() == 1;
@@ -35,7 +37,7 @@ VoxelizeOptions resolution_from(const Arguments& arguments) {
 std::int64_t report_work(Report& report, const VoxelizePlan& plan) {
     report.count("primitives", plan.primitives, "spans and triangles");
     report.add("steps", "steps", plan.steps,
-               str(show_count(plan.steps), " subvoxel edges of fiber length"));
+               str(show_count(plan.steps), " (fiber length in subvoxel edges)"));
     report.count("predicted voxels", plan.voxels);
     report.count("predicted touched subvoxels", plan.touched_subvoxels);
     std::vector<LevelSize> levels{{plan.leaves, plan.voxels, plan.lobes}};

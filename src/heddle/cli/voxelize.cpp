@@ -28,53 +28,69 @@ void run_voxelize(const Arguments& arguments, Report& report, ProgressBar& bar) 
 
 Command voxelize_command() {
     constexpr double kInf = std::numeric_limits<double>::infinity();
-    std::vector<Option> options{
-        {"FILE", "", "", any_text(), "",
-         "curves: .bcc .hair .data .pyp; meshes: .obj .ply .gltf .glb; volumes: .vol", true},
-        {"-o, --output", "OUT.vdb", "", any_text(), "", "where the volume goes", true},
-    };
-    const auto add = [&options](const std::vector<Option>& more) {
-        options.insert(options.end(), more.begin(), more.end());
-    };
-    add(frame_options());
-    add(resolution_options());
-    add({{"--fill-memory", "", "", flag(), "",
-          "as many voxels as fit into memory without a temporary file (--memory, else half of what "
-          "is "
-          "free)"}});
-    add({{"--bounds", "X0,Y0,Z0,X1,Y1,Z1", "(all of the object)", numbers(6, 6, -kInf, kInf),
-          "scene units", "keeps the voxels that touch this box"}});
-    add(load_options());
-    add(model_options());
-    add(volume_options());
-    add({
-        {"--lobes", "K", "3", integer(1, 8), "", "most orientation lobes in a voxel"},
-        {"--subvoxels", "N", "8", one_of({"1", "2", "4", "8"}), "per voxel axis",
-         "how finely coverage is measured"},
-        {"--coverage", "MODE", "columns", one_of({"columns", "mask"}), "",
-         "columns: by centre rays; mask: by sampled subvoxels, as [Fabre26]"},
-        {"--samples", "N", "0", integer(0, 1'000'000), "per span",
-         "with --coverage mask; 0 = two a subvoxel"},
-        {"--fit", "MODE", "moments", one_of({"moments", "last"}), "",
-         "moments: all directions count; last: one sample's, as earlier voxelizers"},
-    });
-    add(raster_options());
-    add(level_options());
-    add({
-        {"--footprints", "N", "(4 of yarn and hair, else 0)", one_of({"0", "4", "8"}),
-         "cells per axis",
-         "keeps which parts of a voxel's faces are covered, for transport; 0 = no"},
-        {"--correlation", "", "", flag(), "",
-         "keeps how far neighbouring voxels hide the same, for transport: a byte a face"},
-        {"--keep-masks", "", "", flag(), "",
-         "stores columns and sums: 'heddle lod' then builds the same levels again, bit for bit"},
-        {"--memory", "BYTES", "(half of what is free)", bytes(), "K, M, G",
-         "peak memory that is kept to"},
-        {"--dry-run", "", "", flag(), "", "prints the plan and writes nothing"},
-    });
-    add(device_options());
-    return {"voxelize", "a .vdb with orientations and coverage, from curves, meshes or volumes",
-            options, run_voxelize};
+    return {
+        "voxelize", "Makes a .vdb with orientation and coverage from curves, meshes or volumes.",
+        joined({
+            grouped(
+                "Input and output",
+                {
+                    {"FILE", "", "", any_text(), "",
+                     "Curves (.bcc .hair .data .pyp), meshes (.obj .ply .gltf .glb) or a volume (.vol).",
+                     true},
+                    {"-o, --output", "OUT.vdb", "", any_text(), "", "Output volume.", true},
+                    {"--dry-run", "", "", flag(), "", "Prints the plan and writes nothing."},
+                }),
+            frame_options(),
+            resolution_options(),
+            grouped(
+                "Resolution",
+                {
+                    {"--fill-memory", "", "", flag(), "",
+                     "Uses as many voxels as fit without a temporary file into --memory or half of the free memory."},
+                    {"--bounds", "X0,Y0,Z0,X1,Y1,Z1", "(the whole object)",
+                     numbers(6, 6, -kInf, kInf), "scene units",
+                     "Keeps only the voxels that this box touches."},
+                }),
+            load_options(),
+            model_options(),
+            level_options(),
+            grouped(
+                "Voxel contents",
+                {
+                    {"--lobes", "K", "3", integer(1, 8), "",
+                     "Maximum number of orientation lobes per voxel."},
+                    {"--footprints", "N",
+                     "(4 if there are only curves, else 0; 0 with --lod naive)",
+                     one_of({"0", "4", "8"}), "cells per axis",
+                     "Stores which cells of a voxel's faces are covered; used by --transport footprint. 0 = none."},
+                    {"--correlation", "", "", flag(), "",
+                     "Stores, per voxel face, how much the occlusion of the two neighbours overlaps (1 byte); used by --transport threshold."},
+                    {"--keep-masks", "", "", flag(), "",
+                     "Stores columns and sums, from which 'heddle lod' rebuilds the levels bit for bit."},
+                }),
+            grouped("Memory and device",
+                    {
+                        {"--memory", "BYTES", "(half of the free memory)", bytes(),
+                         "bytes; suffix K, M, G or T",
+                         "Limit of the peak memory; a temporary file holds what does not fit."},
+                    }),
+            device_options(),
+            grouped(
+                "Accuracy",
+                {
+                    {"--subvoxels", "N", "8", one_of({"1", "2", "4", "8"}), "per voxel axis",
+                     "Subvoxels at which coverage is measured."},
+                    {"--coverage", "MODE", "columns", one_of({"columns", "mask"}), "",
+                     "columns: by rays through the centres of subvoxel columns; mask: by sampled subvoxels, as [Fabre26]."},
+                    {"--samples", "N", "0", integer(0, 1'000'000), "per span",
+                     "Number of samples, with --coverage mask only; 0 = two per subvoxel."},
+                    {"--fit", "MODE", "moments", one_of({"moments", "last"}), "",
+                     "moments: fits lobes to all directions; last: keeps the direction of one sample, as earlier voxelizers do."},
+                }),
+            raster_options(),
+            volume_options(),
+        }),
+        run_voxelize};
 }
 
 } // namespace heddle::cli

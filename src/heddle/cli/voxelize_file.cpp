@@ -24,13 +24,13 @@ VoxelizeOptions voxelize_options(const Arguments& arguments, const std::string& 
     if (arguments.given("fill-memory") &&
         (arguments.given("voxels") || arguments.given("voxel-size"))) {
         throw UsageError(
-            "--fill-memory chooses the resolution: leave out --voxels and --voxel-size");
+            "--fill-memory chooses the resolution; leave out --voxels and --voxel-size");
     }
     if (arguments.given("bounds")) {
         const std::vector<double> b = arguments.numbers("bounds");
         options.bounds = Bounds{{b[0], b[1], b[2]}, {b[3], b[4], b[5]}};
         if (options.bounds->empty()) {
-            throw UsageError("--bounds: its first corner must be the lower one on every axis");
+            throw UsageError("--bounds: the first corner must be the lower one on every axis");
         }
     }
     options.subvoxels = static_cast<std::int32_t>(arguments.integer("subvoxels"));
@@ -41,7 +41,7 @@ VoxelizeOptions voxelize_options(const Arguments& arguments, const std::string& 
     options.samples = arguments.integer("samples");
     if (options.samples > 0 && options.coverage != CoverageMode::Mask) {
         throw UsageError(
-            "--samples is of no use without --coverage mask: nothing is left to chance");
+            "--samples needs --coverage mask; columns are computed without random samples");
     }
     if (arguments.given("memory")) options.memory_bytes = arguments.bytes("memory");
     if (arguments.given("footprints")) {
@@ -49,7 +49,8 @@ VoxelizeOptions voxelize_options(const Arguments& arguments, const std::string& 
     }
     options.correlation = arguments.given("correlation");
     if (arguments.text("lod") == "naive" && (options.footprints != 0 || options.correlation)) {
-        throw UsageError("--lod naive averages coverage: it has no footprints and no correlation");
+        throw UsageError(
+            "--footprints and --correlation cannot be used with --lod naive, which averages coverage");
     }
     options.keep_sums = arguments.given("keep-masks");
     options.seed = static_cast<std::uint64_t>(arguments.integer("seed"));
@@ -67,9 +68,9 @@ std::int64_t report_plan(Report& report, const VoxelizePlan& plan) {
     const Vec3i n = plan.voxel_hi - plan.voxel_lo;
     report.add("resolution", "resolution", {n.x, n.y, n.z},
                str(n.x, " x ", n.y, " x ", n.z, " voxels, ", plan.lattice.subvoxels,
-                   " subvoxels each way in one"));
+                   " subvoxels per voxel axis"));
     const std::int64_t predicted = report_work(report, plan);
-    report.count("blocks", plan.blocks, str("of ", plan.block_voxels, " voxels each way"));
+    report.count("blocks", plan.blocks, str("of ", plan.block_voxels, "^3 voxels"));
     report.count("batches", plan.batches, plan.spool ? "with a temporary file" : "");
     report.number("step length", plan.step_length, "scene units");
     report.number("chord error", plan.chord_error, "subvoxels");
@@ -103,8 +104,9 @@ void report_written(Report& report,
     report.text("output", output);
     report_levels(report, levels);
     if (builder != nullptr) {
-        report.add("levels_thread_seconds", "levels", builder->visit_seconds(),
-                   str(show_seconds(builder->visit_seconds()), " of all threads, within voxelize"));
+        report.add("levels_thread_seconds", "building levels", builder->visit_seconds(),
+                   str(show_seconds(builder->visit_seconds()),
+                       " summed over all threads, while voxelizing"));
     }
     report.bytes("file size", file_bytes(output));
     for (const auto& [stage, seconds] : bar.stages()) report.seconds(stage, seconds);

@@ -55,7 +55,7 @@ struct FrameTable {
 
 void voxelize_frames(const Arguments& arguments, Report& report, ProgressBar& bar) {
     if (is_volume(arguments)) {
-        throw UsageError("--frames is of no use here: it needs curves or meshes, not a .vol");
+        throw UsageError("--frames cannot be used with a .vol; it needs curves or meshes");
     }
     refuse_volume_options(arguments);
     const std::vector<Frame> frames = frames_from(arguments);

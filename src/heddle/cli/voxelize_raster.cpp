@@ -1,4 +1,5 @@
 #include <heddle/base/error.h>
+#include <heddle/cli/terminal/text.h>
 #include <heddle/cli/voxelize_raster.h>
 #include <heddle/raster/voxelize_slices.h>
 #include <heddle/yarn/slice_image.h>
@@ -30,27 +31,31 @@ void report_counts(Report& report, const raster::RasterCounts& counts) {
     report.text("driver", counts.driver);
     report.text("raster path", path_names()[static_cast<std::size_t>(counts.path)]);
     report.count("slices", counts.slices);
-    report.count("bricks", counts.bricks, "of 8 voxels each way, touched by slices");
+    report.count("bricks", counts.bricks, "of 8^3 voxels, touched by slices");
     report.count("draw batches", counts.batches);
-    report.seconds("slices placed", counts.setup_seconds);
-    report.seconds("three passes", counts.draw_seconds);
-    report.seconds("sums to voxels", counts.fit_seconds);
+    const auto seconds = [&report](const char* key, const char* label, double value) {
+        report.add(key, label, value, show_seconds(value));
+    };
+    seconds("slices_placed_seconds", "placing slices", counts.setup_seconds);
+    seconds("three_passes_seconds", "drawing", counts.draw_seconds);
+    seconds("sums_to_voxels_seconds", "fitting voxels", counts.fit_seconds);
 }
 
 } // namespace
 
 std::vector<Option> raster_options() {
-    return {
-        {"--backend", "NAME", "sample", one_of({"sample", "raster"}), "",
-         "sample: fibers, on the CPU; raster: slices of yarns and hair, drawn by OpenGL"},
-        {"--composition", "POLICY", "accumulate", one_of(composition_names()), "",
-         "of --backend raster: accumulate: the fibers' own coverage; else a voxel's density is the "
-         "last, average or largest alpha of the slices in it"},
-        {"--slice-spacing", "S", "(half of the yarn's radius)", positive(), "scene units",
-         "of --backend raster: between slices, at most"},
-        {"--raster-path", "PATH", "auto", one_of(path_names()), "",
-         "of --backend raster: fragment or compute shaders, to the same voxels; auto: the faster"},
-    };
+    return grouped(
+        "OpenGL backend",
+        {
+            {"--backend", "NAME", "sample", one_of({"sample", "raster"}), "",
+             "sample: fibers and triangles, on the CPU or a CUDA device; raster: slices of yarns and hair, drawn by OpenGL."},
+            {"--composition", "POLICY", "accumulate", one_of(composition_names()), "",
+             "accumulate: the coverage of the fibers themselves; last, average, max: one density per voxel from the alpha of its slices. Needs --backend raster."},
+            {"--slice-spacing", "S", "(half of the yarn radius)", positive(), "scene units",
+             "Maximum distance between slices. Needs --backend raster."},
+            {"--raster-path", "PATH", "auto", one_of(path_names()), "",
+             "Kind of shader that draws; the voxels are the same. auto: the faster one. Needs --backend raster."},
+        });
 }
 
 raster::RasterOptions raster_options_from(const Arguments& arguments) {
@@ -72,18 +77,18 @@ void prepare_backend(Geometry& geometry, const Arguments& arguments) {
     if (!uses_raster(arguments)) {
         for (const char* option : {"composition", "slice-spacing", "raster-path"}) {
             if (!arguments.given(option)) continue;
-            throw UsageError(str("--", option, " is of no use here: it needs --backend raster"));
+            throw UsageError(str("--", option, " needs --backend raster"));
         }
         return;
     }
     if (arguments.text("device") == "cuda") {
-        throw UsageError("--device cuda is of no use here: it needs --backend sample");
+        throw UsageError("--device cuda cannot be used with --backend raster");
     }
     if (arguments.given("device-memory")) {
-        throw UsageError("--device-memory is of no use here: it needs --backend sample");
+        throw UsageError("--device-memory cannot be used with --backend raster");
     }
     if (arguments.text("fit") == "last") {
-        throw UsageError("--fit last is of no use here: it needs --backend sample");
+        throw UsageError("--fit last cannot be used with --backend raster");
     }
     for (std::string& note :
          make_slices_of_yarns(geometry, static_cast<std::uint64_t>(arguments.integer("seed")))) {

@@ -29,7 +29,7 @@ void refuse_other_options(const Arguments& arguments) {
     for (const std::string& key : useless) {
         if (!arguments.given(key)) continue;
         throw UsageError(
-            str("--", key, " is of no use here: the samples of a .vol are the voxels"));
+            str("--", key, " cannot be used with a .vol, whose samples become the voxels"));
     }
 }
 
@@ -77,13 +77,17 @@ hold(std::unique_ptr<VoxelSource> source, const Arguments& arguments, Progress& 
 } // namespace
 
 std::vector<Option> volume_options() {
-    return {
-        {"--orientation", "FILE", "(found by name)", any_text(), "",
-         "of a .vol: its directions; of a dictionary: one of their files; none: without"},
-        {"--density-scale", "S", "(density 1 covers 86 % of a voxel's face)", positive(),
-         "per scene unit", "of a .vol: extinction at density 1, the scene's 'scale'"},
-        {"--albedo", "R[,G,B]", "0.8", numbers(1, 3, 0.0, 1.0), "linear", "of a .vol's fibers"},
-    };
+    return grouped(
+        "Mitsuba volumes (.vol)",
+        {
+            {"--orientation", "FILE", "(found by its name)", any_text(), "",
+             "Orientation file of a .vol volume, or any one orientation file of a dictionary; 'none' ignores orientation."},
+            {"--density-scale", "S", "(2 / voxel size: density 1 covers 86 % of a voxel's face)",
+             positive(), "per scene unit",
+             "Extinction at density 1, which is 'scale' in a Mitsuba scene."},
+            {"--albedo", "R[,G,B]", "0.8", numbers(1, 3, 0.0, 1.0), "linear",
+             "Albedo of the fibers."},
+        });
 }
 
 bool is_volume(const Arguments& arguments) {
@@ -93,7 +97,7 @@ bool is_volume(const Arguments& arguments) {
 void refuse_volume_options(const Arguments& arguments) {
     for (const Option& row : volume_options()) {
         if (!arguments.given(row.key())) continue;
-        throw UsageError(str("--", row.key(), " is of no use here: it says how a .vol is read"));
+        throw UsageError(str("--", row.key(), " applies only to .vol files"));
     }
 }
 

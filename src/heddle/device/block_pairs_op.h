@@ -4,6 +4,7 @@
 #include <heddle/executor/atomic.h>
 #include <heddle/surface/surface_view.h>
 #include <heddle/voxelize/bin_op.h>
+#include <heddle/voxelize/block/primitive.h>
 #include <heddle/yarn/fiber_view.h>
 
 #include <array>
@@ -12,7 +13,8 @@
 
 namespace heddle {
 
-/// What primitives are gathered by, each its own way.
+/// What gathers a primitive: a pass of its own for each kind, and a list of pairs for each pass. Which
+/// primitive it is says its Primitive, as on the CPU.
 enum class PrimitiveKind : std::uint8_t {
     Plain,   ///< a piece of a single curve
     Yarn,    ///< a piece of a yarn of fibers
@@ -34,8 +36,8 @@ constexpr std::size_t kPrimitiveKinds = 5;
 
 /// A primitive and a block of the batch that it touches.
 struct BlockPair {
-    std::uint64_t primitive = 0; ///< piece or triangle
-    std::uint32_t slot = 0;      ///< of the block in the batch
+    Primitive primitive = 0;
+    std::uint32_t slot = 0; ///< of the block in the batch
     std::uint32_t spare = 0;
 };
 static_assert(sizeof(BlockPair) == 16);
@@ -44,7 +46,7 @@ static_assert(sizeof(BlockPair) == 16);
 struct CountPairs {
     std::uint32_t* counts[kPrimitiveKinds]; ///< per block of the range; null: no such primitives
 
-    HEDDLE_HD void add(std::size_t kind, std::uint64_t, std::uint64_t block, std::uint32_t) const {
+    HEDDLE_HD void add(std::size_t kind, Primitive, std::uint64_t block, std::uint32_t) const {
         executor::atomic_add(counts[kind] + block, 1);
     }
 };
@@ -58,16 +60,14 @@ struct ListPairs {
 
     static constexpr std::uint32_t kNoSlot = 0xffffffffu;
 
-    HEDDLE_HD void add(std::size_t kind,
-                       std::uint64_t primitive,
-                       std::uint64_t block,
-                       std::uint32_t material) const {
+    HEDDLE_HD void
+    add(std::size_t kind, Primitive primitive, std::uint64_t block, std::uint32_t material) const {
         const std::uint32_t slot = slot_of_block[block];
         if (slot == kNoSlot) return;
         const std::uint64_t at = executor::atomic_add(next[kind] + slot, 1);
         pairs[kind][at] = {primitive, slot, 0};
-        executor::atomic_or(&blocks[slot].materials[material / 64],
-                            std::uint64_t{1} << (material % 64));
+        executor::atomic_or(&blocks[slot].materials.words[material / 64],
+                            MaterialSet::bit_of(material));
     }
 };
 
@@ -75,6 +75,7 @@ struct ListPairs {
 template <typename To>
 struct WalkSpanOp {
     FiberView fibers;
+    LatticeUnits units;
     BlockRange range;
     To to;
 
@@ -83,8 +84,8 @@ struct WalkSpanOp {
         const CurveSetView& set = fibers.sets[whole.set];
         Visit visit{*this, number_of(kind_of(set)), 0, set.material};
         for (std::uint32_t part = 0; part < whole.parts; ++part) {
-            visit.id = std::uint64_t{span} << 16 | part;
-            for_each_block(fibers, part_of(whole, part), range, visit);
+            visit.id = pack_piece(span, part);
+            for_each_block(fibers, part_of(whole, part), units, range, visit);
         }
     }
 
@@ -92,7 +93,7 @@ private:
     struct Visit {
         const WalkSpanOp& op;
         std::size_t kind;
-        std::uint64_t id;
+        Primitive id;
         std::uint32_t material;
         HEDDLE_HD void operator()(int x, int y, int z) const {
             op.to.add(kind, id, op.range.number({x, y, z}), material);
@@ -114,16 +115,17 @@ struct WalkTriangleOp {
         const std::array<std::uint32_t, 3> c = mesh.triangles[at.triangle];
         const Vec3f corners[3] = {mesh.positions[c[0]], mesh.positions[c[1]], mesh.positions[c[2]]};
         for_each_block(corners, mesh.displacement, units, range,
-                       Visit{*this, number_of(mesh.kind), triangle, mesh.material});
+                       Visit{*this, number_of(mesh.kind), pack_triangle(triangle), mesh.material});
     }
 
 private:
     struct Visit {
         const WalkTriangleOp& op;
-        std::size_t kind, triangle;
+        std::size_t kind;
+        Primitive id;
         std::uint32_t material;
         HEDDLE_HD void operator()(int x, int y, int z) const {
-            op.to.add(kind, triangle, op.range.number({x, y, z}), material);
+            op.to.add(kind, id, op.range.number({x, y, z}), material);
         }
     };
 };

@@ -8,7 +8,7 @@
 #include <heddle/device/upload_fibers.h>
 #include <heddle/device/upload_surfaces.h>
 #include <heddle/device/voxelize_device.h>
-#include <heddle/voxel/block_keeper.h>
+#include <heddle/voxel/block_sink.h>
 #include <heddle/voxelize/block_worker.h>
 
 #include <atomic>
@@ -77,7 +77,7 @@ private:
     SurfaceArrays surfaces_;
     PairCounts counts_;
     std::unique_ptr<BlockOrder> order_;
-    std::unique_ptr<BlockKeeper> keeper_;
+    std::unique_ptr<BlockSink> sink_;
     LevelBuilder* levels_ = nullptr;
     std::atomic<std::int64_t> batches_{0};
 };
@@ -93,27 +93,25 @@ template <typename Exec>
 void DeviceRun<Exec>::upload() {
     Exec& exec = *base_;
     exec.set_stage("upload");
-    const PlacedFibers placed(context_.fibers);
-    fibers_ = upload_fibers(exec, context_.fibers);
-    tables_ = placed.upload(exec);
-    surfaces_ = upload_surfaces(exec, context_.surfaces);
+    const PreparedGeometry& prepared = context_.prepared;
+    const PlacedFibers placed = place_all_fibers(prepared.fibers);
+    fibers_ = upload_fibers(exec, prepared.fibers);
+    tables_ = upload_tables(exec, placed);
+    surfaces_ = upload_surfaces(exec, prepared.surfaces);
     exec.wait();
     scene_.surfaces = surfaces_.view;
     scene_.fibers = fibers_.view;
-    scene_.tables = tables_.view();
-    scene_.range = context_.range;
-    scene_.with_maps = context_.fit.fields.map_sums();
-    scene_.fit.max_lobes = context_.fit.max_lobes;
-    for (std::size_t m = 0; m < context_.fit.normals.size(); ++m) {
-        if (context_.fit.normals[m]) scene_.fit.normals[m / 64] |= std::uint64_t{1} << (m % 64);
-    }
+    scene_.tables = view_of(tables_);
+    scene_.units = prepared.units;
+    scene_.range = prepared.range;
+    scene_.fit = context_.fit;
 }
 
 template <typename Exec>
 void DeviceRun<Exec>::count() {
     Exec& exec = *base_;
     exec.set_stage("bin");
-    const std::size_t blocks = context_.range.count();
+    const std::size_t blocks = context_.prepared.range.count();
     std::array<executor::Array<std::uint32_t>, kPrimitiveKinds> counts;
     CountPairs to{};
     const std::array<bool, kPrimitiveKinds> there = kinds_of(context_);
@@ -132,8 +130,9 @@ void DeviceRun<Exec>::count() {
 template <typename Exec>
 std::vector<BatchRange> DeviceRun<Exec>::plan_work() const {
     const auto streams = static_cast<std::int64_t>(device_.streams);
-    const auto slots = static_cast<std::int64_t>(context_.range.count() * sizeof(std::uint32_t));
-    const BatchNeeds needs{static_cast<std::int64_t>(context_.geometry.materials.size()),
+    const auto slots =
+        static_cast<std::int64_t>(context_.prepared.range.count() * sizeof(std::uint32_t));
+    const BatchNeeds needs{static_cast<std::int64_t>(context_.prepared.geometry.materials.size()),
                            batch_settings(context_.fit, levels_)};
     const std::int64_t room = budget_.limit() - budget_.used() - streams * slots;
     return plan_batches(*order_, counts_, needs, room / streams,
@@ -148,7 +147,7 @@ BlockBatch DeviceRun<Exec>::batch_of(BatchRange range) const {
         const std::uint32_t number = order_->block[i];
         BatchBlock& block = batch.blocks.emplace_back();
         Vec3i end;
-        context_.range.voxels(number, block.lo, end);
+        context_.prepared.range.voxels(number, block.lo, end);
         block.index = order_->index[i];
         block.size = end - block.lo;
         batch.numbers.push_back(number);
@@ -169,7 +168,8 @@ void DeviceRun<Exec>::work(std::size_t streams,
         Lane lane;
         lane.exec = make_exec();
         lane.exec->set_stage("bin");
-        lane.slot_of_block = lane.exec->template make<std::uint32_t>(context_.range.count());
+        lane.slot_of_block =
+            lane.exec->template make<std::uint32_t>(context_.prepared.range.count());
         for (std::size_t b = next++; b < batches.size(); b = next++) {
             run_batch(lane, batches[b], progress);
         }
@@ -217,7 +217,7 @@ void DeviceRun<Exec>::finish_batch(Lane& lane,
                                    LevelArrays& level0) {
     build_batch_levels(*lane.exec, std::move(level0), batch.blocks.size(),
                        batch_settings(context_.fit, levels_), lane.built);
-    hand_over(lane.built, range.begin, batch.blocks, context_.fit.fields.masks, *keeper_, levels_);
+    hand_over(lane.built, range.begin, batch.blocks, *sink_, levels_);
 }
 
 template <typename Exec>
@@ -235,13 +235,9 @@ std::unique_ptr<VoxelSource> DeviceRun<Exec>::run(Progress& progress, LevelBuild
     count();
     report.count_seconds = seconds_since(start);
     start = std::chrono::steady_clock::now();
-    order_ = std::make_unique<BlockOrder>(context_.range, occupied_blocks(counts_));
-    keeper_ = std::make_unique<BlockKeeper>(context_.info(), order_->block.size(), plan_.spool,
-                                            context_.options.spool_dir);
-    if (levels != nullptr) {
-        levels->begin(context_.info(), order_->index,
-                      plan_.spool ? context_.options.spool_dir : "");
-    }
+    order_ = std::make_unique<BlockOrder>(context_.prepared.range, occupied_blocks(counts_));
+    sink_ = std::make_unique<BlockSink>(context_.info(), order_->index, plan_.spool,
+                                        context_.options.spool_dir, levels);
     std::int64_t pairs = 0;
     for (const auto& of : counts_) {
         for (const std::uint32_t n : of) pairs += n;
@@ -253,7 +249,24 @@ std::unique_ptr<VoxelSource> DeviceRun<Exec>::run(Progress& progress, LevelBuild
     report.peak_bytes = budget_.peak();
     report.stages = times_.all();
     if (device_.report != nullptr) *device_.report = report;
-    return keeper_->finish();
+    return sink_->finish();
+}
+
+/// Voxelizes by executors of a kind that are made of a Budget alone.
+/// @param device  memory_bytes is set
+template <typename Exec>
+[[nodiscard]] std::unique_ptr<VoxelSource> run_on(const Geometry& geometry,
+                                                  const VoxelizeOptions& options,
+                                                  const VoxelizePlan& plan,
+                                                  const DeviceOptions& device,
+                                                  Progress& progress,
+                                                  LevelBuilder* levels) {
+    const std::unique_ptr<PreparedGeometry> prepared = take_prepared(plan, geometry, options.seed);
+    prepared->drop_bins(); // the device counts by kind
+    const VoxelizeContext context(*prepared, options);
+    DeviceRun<Exec> run(context, plan, device,
+                        [](executor::Budget& budget) { return std::make_unique<Exec>(budget); });
+    return run.run(progress, levels);
 }
 
 } // namespace heddle

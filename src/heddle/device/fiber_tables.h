@@ -10,75 +10,68 @@
 
 namespace heddle {
 
-/// The fibers of all yarns of a geometry, one after the other, as FiberTable has them of one. Crosses to
-/// the device as it lies.
-struct FiberTablesView {
-    const std::uint64_t* first = nullptr;       ///< per yarn, and the end: its first fiber
-    const std::uint64_t* yarn_of_set = nullptr; ///< per set of curves: its first yarn
-    const std::uint64_t* ply_of_set = nullptr;  ///< per set: its first ply
-    const float* set_fiber_radius = nullptr;    ///< per set, model units
-    const SinCos* ply = nullptr;                ///< base angles
-    const float* radius = nullptr;
-    const float* cos_angle = nullptr;
-    const float* sin_angle = nullptr;
-    const float* cos_migration = nullptr;
-    const float* sin_migration = nullptr;
-    const float* migration_turns = nullptr;
-    const std::uint32_t* color = nullptr;
+/// The fibers of all yarns of a geometry, one after the other, as FiberTable has them of one.
+/// @tparam Column  what holds the numbers of one kind: a vector, an executor's array, a pointer
+template <template <typename> class Column>
+struct FiberColumns {
+    Column<std::uint64_t> first{};       ///< per yarn, and the end: its first fiber
+    Column<std::uint64_t> yarn_of_set{}; ///< per set of curves: its first yarn
+    Column<std::uint64_t> ply_of_set{};  ///< per set: its first ply
+    Column<float> set_fiber_radius{};    ///< per set, model units
+    Column<SinCos> ply{};                ///< base angles
+    Column<float> radius{}, cos_angle{}, sin_angle{};
+    Column<float> cos_migration{}, sin_migration{}, migration_turns{};
+    Column<std::uint32_t> color{};
 };
+
+/// Calls f(column of a, column of b) for each column.
+template <typename A, typename B, typename F>
+void for_each_column(A& a, B& b, const F& f) {
+    f(a.first, b.first);
+    f(a.yarn_of_set, b.yarn_of_set);
+    f(a.ply_of_set, b.ply_of_set);
+    f(a.set_fiber_radius, b.set_fiber_radius);
+    f(a.ply, b.ply);
+    f(a.radius, b.radius);
+    f(a.cos_angle, b.cos_angle);
+    f(a.sin_angle, b.sin_angle);
+    f(a.cos_migration, b.cos_migration);
+    f(a.sin_migration, b.sin_migration);
+    f(a.migration_turns, b.migration_turns);
+    f(a.color, b.color);
+}
+
+template <typename T>
+using HostColumn = std::vector<T>;
+template <typename T>
+using PointedColumn = const T*;
+
+/// On the host.
+using PlacedFibers = FiberColumns<HostColumn>;
+/// Where an executor works.
+using FiberTables = FiberColumns<executor::Array>;
+/// What ops read; crosses to the device as it lies.
+using FiberTablesView = FiberColumns<PointedColumn>;
 static_assert(sizeof(FiberTablesView) == 96, "the same on host and device");
 
-/// The same, where an executor works.
-struct FiberTables {
-    executor::Array<std::uint64_t> first, yarn_of_set, ply_of_set;
-    executor::Array<float> set_fiber_radius;
-    executor::Array<SinCos> ply;
-    executor::Array<float> radius, cos_angle, sin_angle, cos_migration, sin_migration,
-        migration_turns;
-    executor::Array<std::uint32_t> color;
+/// Places all fibers of a geometry: on the host, since exp and pow differ between machines.
+[[nodiscard]] PlacedFibers place_all_fibers(const FiberSource& source);
 
-    [[nodiscard]] FiberTablesView view() const {
-        return {first.data(),
-                yarn_of_set.data(),
-                ply_of_set.data(),
-                set_fiber_radius.data(),
-                ply.data(),
-                radius.data(),
-                cos_angle.data(),
-                sin_angle.data(),
-                cos_migration.data(),
-                sin_migration.data(),
-                migration_turns.data(),
-                color.data()};
-    }
-};
+/// @throws Error  OutOfMemory, Device
+template <typename Exec>
+[[nodiscard]] FiberTables upload_tables(Exec& exec, const PlacedFibers& placed) {
+    exec.set_stage("upload of fibers");
+    FiberTables out;
+    for_each_column(placed, out,
+                    [&](const auto& from, auto& to) { to = exec.make_from(std::span(from)); });
+    return out;
+}
 
-/// Host side of FiberTables: fibers are placed here, since exp and pow differ between machines.
-class PlacedFibers {
-public:
-    explicit PlacedFibers(const FiberSource& source);
-
-    /// Bytes that upload() takes.
-    [[nodiscard]] std::int64_t byte_count() const;
-
-    template <typename Exec>
-    [[nodiscard]] FiberTables upload(Exec& exec) const {
-        exec.set_stage("upload of fibers");
-        const auto up = [&](const auto& v) { return exec.make_from(std::span(v)); };
-        return {up(first_),         up(yarn_of_set_),   up(ply_of_set_),      up(set_fiber_radius_),
-                up(ply_),           up(radius_),        up(cos_angle_),       up(sin_angle_),
-                up(cos_migration_), up(sin_migration_), up(migration_turns_), up(color_)};
-    }
-
-private:
-    void append(const FiberTable& table);
-
-    std::vector<std::uint64_t> first_{0}, yarn_of_set_, ply_of_set_;
-    std::vector<float> set_fiber_radius_;
-    std::vector<SinCos> ply_;
-    std::vector<float> radius_, cos_angle_, sin_angle_, cos_migration_, sin_migration_,
-        migration_turns_;
-    std::vector<std::uint32_t> color_;
-};
+/// Valid while `tables` lives.
+[[nodiscard]] inline FiberTablesView view_of(const FiberTables& tables) {
+    FiberTablesView out;
+    for_each_column(tables, out, [](const auto& from, auto& to) { to = from.data(); });
+    return out;
+}
 
 } // namespace heddle

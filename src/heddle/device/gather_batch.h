@@ -16,9 +16,9 @@ struct DeviceScene {
     FiberView fibers;
     FiberTablesView tables;
     SurfaceView surfaces;
+    LatticeUnits units;
     BlockRange range;
-    FitSettings fit;
-    bool with_maps = false; ///< map sums are kept
+    FitOptions fit;
 };
 
 /// Some blocks that are done at once: what the host knows of them.
@@ -53,9 +53,10 @@ struct SetSlotsOp {
 /// Shows each primitive of the scene with each block that it may touch to `to`.
 template <typename Exec, typename To>
 void walk_primitives(Exec& exec, const DeviceScene& scene, const To& to) {
-    exec.for_each(scene.fibers.span_count, WalkSpanOp<To>{scene.fibers, scene.range, to});
+    exec.for_each(scene.fibers.span_count,
+                  WalkSpanOp<To>{scene.fibers, scene.units, scene.range, to});
     exec.for_each(scene.surfaces.triangle_count,
-                  WalkTriangleOp<To>{scene.surfaces, scene.fibers.units, scene.range, to});
+                  WalkTriangleOp<To>{scene.surfaces, scene.units, scene.range, to});
 }
 
 /// Lists the primitives of a batch's blocks, and gives each block its planes: one a material.
@@ -84,9 +85,7 @@ list_pairs(Exec& exec, const DeviceScene& scene, BlockBatch& batch, std::uint32_
     std::uint32_t planes = 0;
     for (BatchBlock& block : batch.blocks) {
         block.first_plane = planes;
-        for (const std::uint64_t bits : block.materials) {
-            block.planes += static_cast<std::uint32_t>(count_bits(bits));
-        }
+        block.planes = block.materials.count();
         planes += block.planes;
     }
     return pairs;
@@ -134,7 +133,7 @@ void gather_triangles(Exec& exec,
     const executor::Array<BlockPair>& of_kind = pairs.of[number_of(Kind)];
     exec.set_stage("gather of triangles");
     exec.for_each(of_kind.size(),
-                  GatherTriangleOp<Kind>{scene.surfaces, scene.fibers.units, sums, of_kind.data()});
+                  GatherTriangleOp<Kind>{scene.surfaces, scene.units, sums, of_kind.data()});
 }
 
 /// Level 0 of a batch of blocks: from primitives to lobes.
@@ -159,9 +158,9 @@ template <typename Exec>
     const auto lobes =
         exec.template make_zero<std::uint64_t>(planes * kBlockCells * DenseLobe::kLobeWords);
     const auto maps = exec.template make_zero<std::uint64_t>(
-        scene.with_maps ? planes * kBlockCells * DenseLobe::kMapWords : 0);
+        scene.fit.fields.map_sums() ? planes * kBlockCells * DenseLobe::kMapWords : 0);
     const DenseSums sums{blocks.data(), masks.data(), lobes.data(), maps.data()};
-    const FiberBatch fibers{scene.fibers, scene.tables, sums};
+    const FiberBatch fibers{scene.fibers, scene.tables, scene.units, sums};
     gather_plain(exec, fibers, pairs.of[number_of(PrimitiveKind::Plain)]);
     gather_yarns(exec, fibers, pairs.of[number_of(PrimitiveKind::Yarn)]);
     gather_triangles<SurfaceKind::Constant>(exec, scene, sums, pairs);

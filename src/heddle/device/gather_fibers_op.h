@@ -29,10 +29,11 @@ struct YarnPair {
 struct FiberBatch {
     FiberView fibers;
     FiberTablesView tables;
+    LatticeUnits units;
     DenseSums sums;
 
     [[nodiscard]] HEDDLE_HD ChordSpace space(std::uint32_t slot) const {
-        return ChordSpace(fibers.units, sums.blocks[slot].size);
+        return ChordSpace(units, sums.blocks[slot].size);
     }
     /// Adds a chord of any thickness to a block.
     /// @param anchor  the voxel that it is relative to
@@ -43,7 +44,7 @@ struct FiberBatch {
                              const DenseLobe& to) const {
         const Vec3i relative = anchor - sums.blocks[slot].lo;
         if (chord.radius > kThickRadius) {
-            gather_chord(to, fibers.units, sums.blocks[slot].size, chord, relative);
+            gather_chord(to, units, sums.blocks[slot].size, chord, relative);
             return;
         }
         gather_chord_op(ThinChord{chord.start, chord.dir, bend, chord.length, chord.before,
@@ -62,19 +63,10 @@ struct GatherPlainOp {
         const std::uint32_t slot = pairs[i].slot;
         const FiberPiece piece = fibers.piece(pairs[i].primitive);
         const CurveSetView& set = fibers.sets[piece.set];
-        const LocalCubic cubic(piece.cubic, fibers.units);
-        const int count =
-            chord_count(static_cast<double>(cubic.bend()),
-                        piece.cubic.polygon_length() / fibers.units.unit, fibers.units);
+        const LocalCubic cubic(piece.cubic, batch.units);
         DenseLobe to = batch.sums.lobe(slot, set.material);
-        if (set.color != nullptr) to.color = set.color[set.knot_point(piece.curve, piece.span)];
-        PlainEnds ends;
-        ends.linear = set.basis == Basis::Linear;
-        if (ends.linear) {
-            ends.turn_before = joint_turn(set, piece, false);
-            ends.turn_after = joint_turn(set, piece, true);
-        }
-        for_each_plain_chord(cubic, fibers.course(piece), ends, count,
+        if (set.color != nullptr) to.color = set.color_of(piece);
+        for_each_plain_chord(fibers, piece, cubic, batch.units,
                              AddChord{batch, slot, cubic.anchor, to});
     }
 
@@ -103,11 +95,9 @@ struct PrepareYarnOp {
         const FiberView& fibers = batch.fibers;
         const FiberPiece piece = fibers.piece(pairs[i].primitive);
         const CurveSetView& set = fibers.sets[piece.set];
-        const LocalCubic cubic(piece.cubic, fibers.units);
-        const YarnCourse course = fibers.course(piece);
-        const int count =
-            yarn_chord_count(cubic, course, section_of(set.yarn),
-                             piece.cubic.polygon_length() / fibers.units.unit, fibers.units);
+        const LocalCubic cubic(piece.cubic, batch.units);
+        const YarnCourse course = fibers.course(piece, batch.units.unit);
+        const int count = yarn_chord_count(piece, cubic, course, section_of(set.yarn), batch.units);
         yarns[i] = {cubic, course, piece.curve, piece.set, pairs[i].slot, count};
         frames[i] = static_cast<std::uint32_t>(count + 3);
         const std::uint64_t* first =
@@ -286,8 +276,8 @@ struct GatherHairOp {
         const auto local = static_cast<std::int64_t>(i - first_hair[p]);
         const auto ply = static_cast<std::uint64_t>(local / cells.count());
         FlyawayHair hair;
-        if (!model.hair_of(cells.first + local % cells.count(), batch.fibers.seed + yarn.set,
-                           yarn.curve, ply, course.start, end, hair)) {
+        const HairPly of{batch.fibers.seed + yarn.set, yarn.curve, ply};
+        if (!model.hair_of(cells.first + local % cells.count(), of, course.start, end, hair)) {
             return;
         }
         const SinCos base = batch.tables.ply[batch.tables.ply_of_set[yarn.set] + ply];

@@ -6,14 +6,16 @@ namespace heddle {
 
 BatchSettings batch_settings(const FitOptions& fit, const LevelBuilder* levels) {
     BatchSettings out;
-    out.level0 = {fit.subvoxels, fit.max_lobes, fit.fields};
+    out.level0 = fit;
     if (levels == nullptr) return out;
     const LevelOptions* above = levels->options_of_built();
     if (above == nullptr) {
         out.level0.fields.masks = true;
         return out;
     }
-    out.above = {fit.subvoxels, above->merge.max_lobes, above->fields};
+    out.above = fit;
+    out.above.max_lobes = above->merge.max_lobes;
+    out.above.fields = above->fields;
     out.levels = levels->built_levels();
     out.top = levels->wants_top();
     return out;
@@ -22,21 +24,19 @@ BatchSettings batch_settings(const FitOptions& fit, const LevelBuilder* levels) 
 void hand_over(const BatchLevels& built,
                std::size_t first,
                std::span<const BatchBlock> blocks,
-               bool keep_sums,
-               BlockKeeper& keeper,
+               BlockSink& sink,
                LevelBuilder* levels) {
     const bool takes_built = levels != nullptr && levels->options_of_built() != nullptr;
     parallel_chunks(blocks.size(), 1, [&](std::size_t b, std::size_t) {
         VoxelBlock block;
         BuiltBlock above;
         built.cut(b, blocks[b].index, block, above);
-        if (takes_built) {
-            levels->accept(first + b, block, above);
-        } else if (levels != nullptr) {
-            levels->visit(first + b, block);
+        if (!takes_built) {
+            sink.take(first + b, block);
+            return;
         }
-        if (!keep_sums) drop_sums(block);
-        keeper.keep(first + b, block);
+        levels->accept(first + b, block, above);
+        sink.keep(first + b, block);
     });
 }
 

@@ -3,8 +3,8 @@
 #include <heddle/device/level/batch_levels.h>
 #include <heddle/device/level/dense_sums.h>
 #include <heddle/lod/build_levels.h>
-#include <heddle/voxel/block_keeper.h>
-#include <heddle/voxelize/block/fit_block.h>
+#include <heddle/voxel/block_sink.h>
+#include <heddle/voxelize/block/fit_options.h>
 
 #include <cstddef>
 #include <span>
@@ -17,16 +17,15 @@ namespace heddle {
 [[nodiscard]] BatchSettings batch_settings(const FitOptions& fit, const LevelBuilder* levels);
 
 /// Hands a batch's blocks on, several threads at a time.
-/// @param built      by build_batch_levels() with batch_settings()
-/// @param first      rank of the batch's first block in the keeper and for the builder
-/// @param blocks     of the batch
-/// @param keep_sums  VoxelizeOptions::keep_sums
-/// @param levels     may be null
+/// @param built   by build_batch_levels() with batch_settings()
+/// @param first   rank of the batch's first block
+/// @param blocks  of the batch
+/// @param sink    has `levels` for its visitor
+/// @param levels  may be null
 void hand_over(const BatchLevels& built,
                std::size_t first,
                std::span<const BatchBlock> blocks,
-               bool keep_sums,
-               BlockKeeper& keeper,
+               BlockSink& sink,
                LevelBuilder* levels);
 
 } // namespace heddle

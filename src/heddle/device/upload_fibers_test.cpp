@@ -21,6 +21,7 @@ struct SpanBits {
 /// Walks a span's pieces as bins and fibers do.
 struct WalkSpan {
     FiberView fibers;
+    LatticeUnits units;
     BlockRange range;
     SpanBits* out;
 
@@ -31,12 +32,12 @@ struct WalkSpan {
         SpanBits bits;
         const FiberPiece whole = fibers.whole_span(span);
         for (std::uint32_t part = 0; part < whole.parts; ++part) {
-            const FiberPiece piece = fibers.piece(span << 16 | part);
-            for_each_block(fibers, piece, range, [&](int x, int y, int z) {
+            const FiberPiece piece = fibers.piece(pack_piece(span, part));
+            for_each_block(fibers, piece, units, range, [&](int x, int y, int z) {
                 bits.blocks = hash64(bits.blocks, range.number({x, y, z}));
             });
-            const YarnCourse course = fibers.course(piece);
-            YarnFrame frame(LocalCubic(piece.cubic, fibers.units), course, 0.375f);
+            const YarnCourse course = fibers.course(piece, units.unit);
+            YarnFrame frame(LocalCubic(piece.cubic, units), course, 0.375f);
             frame.twist(course);
             const PlyFrame ply = frame.of_ply(SinCos{0.6f, 0.8f});
             for (int a = 0; a < 3; ++a)
@@ -49,10 +50,11 @@ struct WalkSpan {
     }
 };
 
-std::vector<SpanBits> walk(executor::HostExecutor& exec, const FiberView& fibers) {
+std::vector<SpanBits>
+walk(executor::HostExecutor& exec, const FiberView& fibers, const LatticeUnits& units) {
     const executor::Array<SpanBits> out = exec.make<SpanBits>(fibers.span_count);
     exec.for_each(fibers.span_count,
-                  WalkSpan{fibers, {{-40, -500, -500}, {500, 500, 70}}, out.data()});
+                  WalkSpan{fibers, units, {{-40, -500, -500}, {500, 500, 70}}, out.data()});
     std::vector<SpanBits> bits(fibers.span_count);
     exec.download(std::span(bits), out.data());
     return bits;
@@ -76,13 +78,14 @@ TEST(UploadFibers, TheCopyGivesTheSourcesBitsWithoutTheSource) {
     executor::HostExecutor exec(budget);
     std::vector<SpanBits> expected;
     FiberArrays arrays;
+    const LatticeUnits units(Lattice{{0.02, 0.05, 0.03}, 8});
     {
         const Geometry geometry = swatch_and_rings();
-        const FiberSource source(geometry, LatticeUnits(Lattice{{0.02, 0.05, 0.03}, 8}), 7);
-        expected = walk(exec, source.view());
+        const FiberSource source(geometry, piece_length_of(units), 7);
+        expected = walk(exec, source.view(), units);
         arrays = upload_fibers(exec, source);
     }
-    EXPECT_TRUE(walk(exec, arrays.view) == expected);
+    EXPECT_TRUE(walk(exec, arrays.view, units) == expected);
     EXPECT_GT(expected.size(), 1000u);
 }
 

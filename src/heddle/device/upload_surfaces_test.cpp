@@ -23,7 +23,8 @@ namespace {
 /// Numbers of one voxel, of one material: 3 columns, 8 of subvoxels, a lobe's 7, 12 of its maps. In
 /// each material's are the bits of its own hits.
 struct Dense {
-    static constexpr int kLobe = 11, kMap = 18, kWords = 30;
+    static constexpr int kSubvoxels = 3, kLobe = 11, kMap = kLobe + LobeField::Count,
+                         kWords = kMap + MapField::Count;
     std::uint64_t* words;
     bool with_maps;
 
@@ -31,7 +32,7 @@ struct Dense {
         executor::atomic_or(words + cell * kWords + axis, bits);
     }
     HEDDLE_HD void or_subvoxels(int cell, int word, std::uint64_t bits) const {
-        executor::atomic_or(words + cell * kWords + 3 + word, bits);
+        executor::atomic_or(words + cell * kWords + kSubvoxels + word, bits);
     }
     HEDDLE_HD void add_lobe(int cell, int field, std::int64_t x) const {
         add(cell * kWords + kLobe + field, x);
@@ -89,13 +90,13 @@ Words words_of(const BlockSums& sums, std::size_t materials) {
         if (voxel == nullptr) continue;
         std::uint64_t* to = &words[static_cast<std::size_t>(cell) * Dense::kWords];
         std::copy(voxel->column.begin(), voxel->column.end(), to);
-        std::copy(voxel->sub.begin(), voxel->sub.end(), to + 3);
+        std::copy(voxel->sub.begin(), voxel->sub.end(), to + Dense::kSubvoxels);
         for (const LobeSums* l = &voxel->lobe; l != nullptr; l = sums.next(*l)) {
             std::uint64_t* lobe = to + l->material * kPlane + Dense::kLobe;
             std::memcpy(lobe, l->moment.data(), 48);
-            lobe[6] = static_cast<std::uint64_t>(l->weight);
+            lobe[LobeField::Weight] = static_cast<std::uint64_t>(l->weight);
             const MapSums* maps = sums.find_maps(*voxel, *l);
-            if (maps != nullptr) std::memcpy(lobe + 7, maps, sizeof *maps);
+            if (maps != nullptr) std::memcpy(lobe + LobeField::Count, maps, sizeof *maps);
         }
     }
     return words;
@@ -124,21 +125,22 @@ int expect_same_sums(const Scene& scene) {
     executor::Budget budget(std::int64_t{1} << 32);
     executor::HostExecutor exec(budget);
     const VoxelizeOptions options;
-    const VoxelizeContext context(scene.geometry, options, scene.lattice, scene.lo, scene.hi);
-    const SurfaceArrays arrays = upload_surfaces(exec, context.surfaces);
+    PreparedGeometry prepared(scene.geometry, scene.lattice, scene.lo, scene.hi, options.seed);
+    const VoxelizeContext context(prepared, options);
+    const SurfaceArrays arrays = upload_surfaces(exec, prepared.surfaces);
     const Progress silent;
-    const Bins bins(context.fibers, context.triangles, context.range, silent);
-    TriangleGatherer gatherer(context.surfaces, context.units, FitMode::Moments);
+    const Bins& bins = prepared.bins(silent);
+    TriangleGatherer gatherer(prepared.surfaces, prepared.units, FitMode::Moments);
     BlockSums sums(context.fit.fields.map_sums());
     int voxels = 0;
-    for (std::uint32_t block = 0; block < context.range.count(); ++block) {
+    for (std::uint32_t block = 0; block < prepared.range.count(); ++block) {
         Vec3i lo, hi;
-        context.range.voxels(block, lo, hi);
+        prepared.range.voxels(block, lo, hi);
         sums.reset(lo, hi);
         gatherer.gather(bins.fill(std::span(&block, 1), silent).of(0), sums, silent);
         voxels += sums.count();
         const Words found = gather_block(
-            exec, {arrays.view, context.units, context.range, block, nullptr, sums.has_maps()});
+            exec, {arrays.view, prepared.units, prepared.range, block, nullptr, sums.has_maps()});
         EXPECT_TRUE(found == words_of(sums, scene.geometry.materials.size())) << block;
     }
     return voxels;

@@ -14,11 +14,11 @@ std::string why_not_on_device(const VoxelizeOptions& options) {
 
 std::array<bool, kPrimitiveKinds> kinds_of(const VoxelizeContext& context) {
     std::array<bool, kPrimitiveKinds> there{};
-    const FiberView fibers = context.fibers.view();
+    const FiberView fibers = context.prepared.fibers.view();
     for (std::size_t s = 0; s < fibers.set_count; ++s) {
         there[number_of(kind_of(fibers.sets[s]))] = true;
     }
-    const SurfaceView surfaces = context.surfaces.view();
+    const SurfaceView surfaces = context.prepared.surfaces.view();
     for (std::size_t m = 0; m < surfaces.mesh_count; ++m) {
         there[number_of(surfaces.meshes[m].kind)] = true;
     }
@@ -47,12 +47,7 @@ std::unique_ptr<VoxelSource> voxelize_on_host_executor(const Geometry& geometry,
     check_device_options(options, device);
     DeviceOptions with_memory = device;
     if (device.memory_bytes == 0) with_memory.memory_bytes = available_bytes() / 10 * 9;
-    const VoxelizeContext context(geometry, options, plan.lattice, plan.voxel_lo, plan.voxel_hi);
-    DeviceRun<executor::HostExecutor> run(
-        context, plan, with_memory, [&](executor::Budget& budget) {
-            return std::make_unique<executor::HostExecutor>(budget, device.vanish_after);
-        });
-    return run.run(progress, levels);
+    return run_on<executor::HostExecutor>(geometry, options, plan, with_memory, progress, levels);
 }
 
 #if !HEDDLE_HAS_CUDA

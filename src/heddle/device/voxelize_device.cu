@@ -16,11 +16,7 @@ std::unique_ptr<VoxelSource> voxelize_on_cuda(const Geometry& geometry,
     if (found.name.empty()) throw Error(ErrorCode::Device, "voxelize: " + found.why, "use the CPU");
     DeviceOptions with_memory = device;
     if (device.memory_bytes == 0) with_memory.memory_bytes = found.free_bytes / 10 * 9;
-    const VoxelizeContext context(geometry, options, plan.lattice, plan.voxel_lo, plan.voxel_hi);
-    DeviceRun<executor::CudaExecutor> run(context, plan, with_memory, [](executor::Budget& budget) {
-        return std::make_unique<executor::CudaExecutor>(budget);
-    });
-    return run.run(progress, levels);
+    return run_on<executor::CudaExecutor>(geometry, options, plan, with_memory, progress, levels);
 }
 
 } // namespace heddle

@@ -31,7 +31,6 @@ struct DeviceOptions {
     std::int64_t batches = 0;       ///< at least so many; 0: as memory needs
     bool time_stages = false;       ///< each launch is waited for: slower as a whole
     DeviceReport* report = nullptr; ///< gets what the run took
-    std::int64_t vanish_after = -1; ///< of the host executor: launches until its device is gone
 };
 
 /// Why the device does not do what is asked, though the CPU does: CoverageMode::Mask, FitMode::Last.

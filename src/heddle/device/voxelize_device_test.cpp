@@ -1,4 +1,8 @@
 #include <heddle/device/voxelize_device.h>
+
+#include <heddle/device/device_run.h>
+#include <heddle/device/level/build_batch.h>
+#include <heddle/executor/host_executor.h>
 #include <heddle/voxelize/test_swatch.h>
 
 #include <gtest/gtest.h>
@@ -131,18 +135,49 @@ TEST(DeviceVoxelizer, FlatVoxelsAndARegionAreTheCpus) {
     expect_parity(hairy_swatch(), options);
 }
 
-/// Runs the pipeline, expecting an Error.
-Error error_of(const VoxelizeOptions& options, const DeviceOptions& device) {
-    const VoxelizePlan plan = plan_voxelize(swatch(), options_of(60));
-    Progress silent;
+/// Calls run(), expecting an Error.
+template <typename Run>
+Error error_of_run(const Run& run) {
     try {
-        static_cast<void>(
-            voxelize_on_host_executor(swatch(), options, plan, device, silent, nullptr));
+        static_cast<void>(run());
     } catch (const Error& e) {
         return e;
     }
     return Error(ErrorCode::Internal, "no error");
 }
+
+Error error_of(const VoxelizeOptions& options, const DeviceOptions& device) {
+    const VoxelizePlan plan = plan_voxelize(swatch(), options_of(60));
+    Progress silent;
+    return error_of_run([&] {
+        return voxelize_on_host_executor(swatch(), options, plan, device, silent, nullptr);
+    });
+}
+
+/// An executor whose device is gone after some launches.
+class VanishingExecutor : public executor::HostExecutor {
+public:
+    VanishingExecutor(executor::Budget& budget, int launches)
+        : HostExecutor(budget), launches_left_(launches) {}
+
+    template <typename Op>
+    void for_each(std::size_t n, const Op& op) {
+        launch();
+        HostExecutor::for_each(n, op);
+    }
+    template <typename In, typename Out>
+    void offsets(const In* count, Out* first, std::size_t n) {
+        launch();
+        HostExecutor::offsets(count, first, n);
+    }
+
+private:
+    void launch() {
+        if (launches_left_-- > 0) return;
+        throw Error(ErrorCode::Device, str(stage(), ": the device is gone"), "use --device cpu");
+    }
+    int launches_left_;
+};
 
 TEST(DeviceVoxelizer, LittleMemoryTakesSmallBatchesAndTooLittleIsOneLine) {
     DeviceOptions device;
@@ -155,10 +190,18 @@ TEST(DeviceVoxelizer, LittleMemoryTakesSmallBatchesAndTooLittleIsOneLine) {
 }
 
 TEST(DeviceVoxelizer, ADeviceThatVanishesAtAnyLaunchIsOneLine) {
-    for (const std::int64_t launches : {0, 1, 3, 9, 15}) {
-        DeviceOptions device;
-        device.vanish_after = launches;
-        const Error e = error_of(options_of(60), device);
+    const VoxelizeOptions options = options_of(60);
+    const VoxelizePlan plan = plan_voxelize(swatch(), options);
+    const auto prepared = take_prepared(plan, swatch(), options.seed);
+    const VoxelizeContext context(*prepared, options);
+    DeviceOptions device;
+    device.memory_bytes = std::int64_t{1} << 30;
+    for (const int launches : {0, 1, 3, 9, 15}) {
+        DeviceRun<VanishingExecutor> run(context, plan, device, [&](executor::Budget& budget) {
+            return std::make_unique<VanishingExecutor>(budget, launches);
+        });
+        Progress silent;
+        const Error e = error_of_run([&] { return run.run(silent, nullptr); });
         EXPECT_EQ(e.code(), ErrorCode::Device) << launches;
         EXPECT_NE(std::string(e.what()).find("the device is gone"), std::string::npos) << e.what();
     }

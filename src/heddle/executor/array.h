@@ -11,7 +11,7 @@
 
 namespace heddle::executor {
 
-/// Where an executor's arrays come from: memory of the host or of the device, counted in a budget.
+/// Allocates the arrays of an executor: memory of the host or of the device, counted in a budget.
 class Allocator {
 public:
     explicit Allocator(Budget& budget) : budget_(budget) {}
@@ -19,7 +19,7 @@ public:
     Allocator(const Allocator&) = delete;
     Allocator& operator=(const Allocator&) = delete;
 
-    /// @throws Error  OutOfMemory: the budget or the device has too little; Device
+    /// @throws Error  OutOfMemory: the budget or the device has too little left; Device
     [[nodiscard]] void* take(std::size_t bytes) {
         if (bytes == 0) return nullptr;
         budget_.take(static_cast<std::int64_t>(bytes), stage_);
@@ -36,11 +36,11 @@ public:
         budget_.give(static_cast<std::int64_t>(bytes));
     }
 
-    /// Names what is done from now on, for errors. @param name  a literal: it is not copied
+    /// Names the phase that starts now, for errors. @param name  a literal: it is not copied
     void set_stage(std::string_view name) { stage_ = name; }
     [[nodiscard]] std::string_view stage() const { return stage_; }
     [[nodiscard]] Budget& budget() const { return budget_; }
-    /// From now on each launch is waited for and its time added. @param times  null: no more
+    /// Waits for each launch from now on and adds its time. @param times  null: stops timing
     void time_stages(StageTimes* times) { times_ = times; }
 
 protected:
@@ -79,10 +79,10 @@ public:
         if (data_ != nullptr) from_->give(data_, size_ * sizeof(T));
     }
 
-    /// Of the executor's memory: not to be followed by the host unless the executor is the host's.
+    /// A pointer into the executor's memory: only a HostExecutor's may be read by the host.
     [[nodiscard]] T* data() const noexcept { return data_; }
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
-    /// Gives the memory back.
+    /// Frees the memory.
     void reset() { *this = Array(); }
 
 private:

@@ -7,7 +7,7 @@
 
 namespace heddle::executor {
 
-/// *at |= bits, whole, whichever thread of the device or of the host comes between.
+/// *at |= bits as one atomic operation, on the device and on the host.
 HEDDLE_HD inline void atomic_or(std::uint64_t* at, std::uint64_t bits) {
 #if HEDDLE_DEVICE_PASS
     atomicOr(reinterpret_cast<unsigned long long*>(at), static_cast<unsigned long long>(bits));
@@ -16,8 +16,8 @@ HEDDLE_HD inline void atomic_or(std::uint64_t* at, std::uint64_t bits) {
 #endif
 }
 
-/// *at += x modulo 2^64, whole: sums of signed numbers too, as their two's complement.
-/// @return  what was there before
+/// *at += x modulo 2^64, atomically. Signed numbers are added as their two's complement.
+/// @return  the value before
 HEDDLE_HD inline std::uint64_t atomic_add(std::uint64_t* at, std::uint64_t x) {
 #if HEDDLE_DEVICE_PASS
     return atomicAdd(reinterpret_cast<unsigned long long*>(at), static_cast<unsigned long long>(x));
@@ -26,8 +26,8 @@ HEDDLE_HD inline std::uint64_t atomic_add(std::uint64_t* at, std::uint64_t x) {
 #endif
 }
 
-/// *at += x modulo 2^32, whole.
-/// @return  what was there before
+/// *at += x modulo 2^32, atomically.
+/// @return  the value before
 HEDDLE_HD inline std::uint32_t atomic_add(std::uint32_t* at, std::uint32_t x) {
 #if HEDDLE_DEVICE_PASS
     return atomicAdd(at, x);

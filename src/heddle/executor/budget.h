@@ -6,14 +6,14 @@
 
 namespace heddle::executor {
 
-/// Bytes of working memory that may be taken, counted over all executors that share them. Thread-safe.
+/// Counts the working memory in bytes of all executors that share it, up to a limit. Thread-safe.
 class Budget {
 public:
-    /// @param limit_bytes  that may be in use at once
+    /// @param limit_bytes  the most that may be in use at once
     explicit Budget(std::int64_t limit_bytes) : limit_(limit_bytes) {}
 
-    /// @param stage  what needs them: named in the error
-    /// @throws Error  OutOfMemory: more than the limit would be in use; nothing is taken then
+    /// @param stage  the phase that needs the bytes: named in the error
+    /// @throws Error  OutOfMemory: more than the limit would be in use; then nothing is taken
     void take(std::int64_t bytes, std::string_view stage);
     void give(std::int64_t bytes) noexcept { used_.fetch_sub(bytes, std::memory_order_relaxed); }
 

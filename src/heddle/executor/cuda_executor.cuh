@@ -19,11 +19,11 @@ __global__ void for_each_kernel(const __grid_constant__ Op op, std::size_t n) {
     if (i < n) op(i);
 }
 
-/// Runs on the current CUDA device, in a stream of its own: calls of several executors overlap. See
+/// Runs on the current CUDA device, in its own stream: calls of several executors overlap. See
 /// HostExecutor, which has the same calls. Memory comes from the device's pool, in stream order.
 class CudaExecutor final : public Executor<CudaExecutor> {
 public:
-    /// @throws Error  Device: no stream
+    /// @throws Error  Device: no stream can be created
     explicit CudaExecutor(Budget& budget) : Executor(budget) {
         check(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking), "a stream");
     }
@@ -35,7 +35,7 @@ public:
         if (n > 0) check(cudaMemsetAsync(out.data(), 0, n * sizeof(T), stream_), "clearing");
         return out;
     }
-    /// `from` may be changed when it returns.
+    /// Copies; `from` may be changed as soon as it returns.
     template <typename T>
     void upload(T* to, std::span<const T> from) {
         const std::size_t bytes = from.size_bytes();
@@ -99,12 +99,12 @@ public:
 
 private:
     [[nodiscard]] StageTimer begin_timing() {
-        if (times_ != nullptr) wait(); // what was launched before is of its own stage
+        if (times_ != nullptr) wait(); // earlier launches belong to their own phase
         return StageTimer(times_, stage());
     }
     void check(cudaError_t status, const char* what) const {
         if (status == cudaSuccess) return;
-        cudaGetLastError(); // forgets it: a batch that is tried again in halves must not meet it
+        cudaGetLastError(); // cleared: a batch that is retried in halves must not see it
         const bool memory = status == cudaErrorMemoryAllocation;
         throw Error(memory ? ErrorCode::OutOfMemory : ErrorCode::Device,
                     str(stage(), ": ", what, ": ", cudaGetErrorString(status), ", with ",

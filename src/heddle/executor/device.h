@@ -7,13 +7,13 @@ namespace heddle::executor {
 
 /// The CUDA device that executors use.
 struct Device {
-    std::string name;            ///< empty: there is none
-    std::string why;             ///< if there is none: the reason, in words
-    std::int64_t free_bytes = 0; ///< of its memory, now
+    std::string name;            ///< empty: there is no device
+    std::string why;             ///< why there is none, in words
+    std::int64_t free_bytes = 0; ///< free memory of the device now
 };
 
-/// Looks for a device; makes its memory pool keep what it has taken. Never throws: no device, no driver
-/// and a build without CUDA are answers.
+/// Looks for a device and makes its memory pool keep the memory it has taken. Never throws: if
+/// there is no device or driver, or the build is without CUDA, `why` says so.
 [[nodiscard]] Device find_device();
 
 } // namespace heddle::executor

@@ -7,11 +7,11 @@
 
 namespace heddle::executor {
 
-/// What the executors of all kinds share; `Self` has upload(), download(), wait(), for_each(), offsets().
+/// What all executors share; `Self` has upload(), download(), wait(), for_each() and offsets().
 template <typename Self>
 class Executor : public Allocator {
 public:
-    /// n objects, not initialized.
+    /// An array of n objects, not initialized.
     template <typename T>
     [[nodiscard]] Array<T> make(std::size_t n) {
         return Array<T>(*this, n);
@@ -22,7 +22,7 @@ public:
         self().upload(out.data(), host);
         return out;
     }
-    /// One object; waits for it.
+    /// Reads one object back, after waiting for it.
     template <typename T>
     [[nodiscard]] T read(const T* at) {
         T out;

@@ -1,12 +1,10 @@
 #pragma once
 
-#include <heddle/base/error.h>
 #include <heddle/base/parallel.h>
 #include <heddle/executor/executor.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <cstring>
 #include <memory>
 #include <new>
@@ -14,17 +12,15 @@
 
 namespace heddle::executor {
 
-/// Runs on the host's threads what CudaExecutor (cuda_executor.cuh) runs on a device: the same calls,
-/// the same bits. It is how a machine without a GPU tests all but the launches.
+/// Runs on the host's threads what CudaExecutor (cuda_executor.cuh) runs on a device, with the same
+/// calls and the same bits. A machine without a GPU tests all but the launches with it.
 ///
-/// Calls return at once or when done: results are there after wait(), read() or download().
-class HostExecutor final : public Executor<HostExecutor> {
+/// A call may return before it is done: results are there after wait(), read() or download().
+class HostExecutor : public Executor<HostExecutor> {
 public:
-    /// @param vanish_after  launches until the device is gone, as a test has it; < 0: never
-    explicit HostExecutor(Budget& budget, std::int64_t vanish_after = -1)
-        : Executor(budget), launches_left_(vanish_after) {}
+    explicit HostExecutor(Budget& budget) : Executor(budget) {}
 
-    /// n objects of all bits 0.
+    /// An array of n objects with all bits 0.
     template <typename T>
     [[nodiscard]] Array<T> make_zero(std::size_t n) {
         Array<T> out(*this, n);
@@ -41,10 +37,10 @@ public:
     }
     void wait() {}
 
-    /// Calls op(i) for i in [0, n), i a std::size_t, in any order. `op` is a HEDDLE_HD functor of values.
+    /// Calls op(i) for every std::size_t i in [0, n), in any order; `op` is a HEDDLE_HD functor of
+    /// values.
     template <typename Op>
     void for_each(std::size_t n, const Op& op) {
-        launch();
         const StageTimer timer(times_, stage());
         const std::size_t share = n / (static_cast<std::size_t>(thread_count()) * 8);
         parallel_chunks(n, std::clamp<std::size_t>(share, 1, 1024),
@@ -55,7 +51,6 @@ public:
     /// first[i] = count[0] + ... + count[i - 1] for i in [0, n]: n + 1 numbers.
     template <typename In, typename Out>
     void offsets(const In* count, Out* first, std::size_t n) {
-        launch();
         const StageTimer timer(times_, stage());
         Out sum{};
         for (std::size_t i = 0; i < n; ++i) {
@@ -66,20 +61,11 @@ public:
     }
 
 private:
-    void launch() {
-        if (launches_left_ == 0) {
-            throw Error(ErrorCode::Device, str(stage(), ": the device is gone"),
-                        "use --device cpu");
-        }
-        if (launches_left_ > 0) --launches_left_;
-    }
-    // each array by itself: a sanitizer sees a step beyond its end
+    // each array is its own allocation, so that a sanitizer sees an access past its end
     void* allocate(std::size_t bytes) override {
         return ::operator new (bytes, std::align_val_t{64});
     }
     void release(void* data) noexcept override { ::operator delete (data, std::align_val_t{64}); }
-
-    std::int64_t launches_left_;
 };
 
 } // namespace heddle::executor

@@ -9,7 +9,7 @@
 
 namespace heddle::executor {
 
-/// Seconds that launches took, by the stage they were in; over all executors that share it.
+/// Seconds that launches took, per phase, over all executors that share it.
 class StageTimes {
 public:
     void add(std::string_view stage, double seconds) {
@@ -21,7 +21,7 @@ public:
         }
         times_.emplace_back(stage, seconds);
     }
-    /// In the order in which stages first came.
+    /// All phases, in the order in which they first ran.
     [[nodiscard]] std::vector<std::pair<std::string, double>> all() const {
         const std::scoped_lock lock(mutex_);
         return times_;
@@ -32,7 +32,7 @@ private:
     std::vector<std::pair<std::string, double>> times_;
 };
 
-/// Adds the time from its making to its end to a stage's; null: to none.
+/// Adds the time between its construction and destruction to a phase; if `times` is null, to none.
 class StageTimer {
 public:
     StageTimer(StageTimes* times, std::string_view stage) : times_(times), stage_(stage) {

@@ -10,11 +10,11 @@
 
 namespace heddle::executor {
 
-/// Two pinned buffers through which large copies between the host and the device go: a copy from or
-/// into ordinary memory runs at a fraction of the bus's speed and holds up the thread that asks for it.
+/// Two pinned buffers for large copies between the host and the device: a copy from or into
+/// ordinary memory runs at a fraction of the bus's speed and blocks the calling thread.
 class Staging {
 public:
-    static constexpr std::size_t kBytes = std::size_t{16} << 20; ///< of one buffer
+    static constexpr std::size_t kBytes = std::size_t{16} << 20; ///< per buffer
     static constexpr std::size_t kLeast = std::size_t{1} << 20;  ///< smaller copies go directly
 
     Staging() = default;
@@ -48,7 +48,7 @@ public:
         }
         return cudaSuccess;
     }
-    /// Copies; `from` may be changed when it returns. @return  the first failure
+    /// Copies; `from` may be changed as soon as it returns. @return  the first failure
     cudaError_t
     upload(std::byte* to, const std::byte* from, std::size_t bytes, cudaStream_t stream) {
         if (const cudaError_t made = make(); made != cudaSuccess) return made;

@@ -6,9 +6,9 @@
 
 namespace heddle {
 
-/// x -> A x + b.
+/// The map x -> A x + b.
 struct Affine {
-    Vec3d x{1, 0, 0}; ///< image of the x axis: A's first column
+    Vec3d x{1, 0, 0}; ///< image of the x axis: the first column of A
     Vec3d y{0, 1, 0};
     Vec3d z{0, 0, 1};
     Vec3d offset{};
@@ -19,12 +19,12 @@ struct Affine {
     friend bool operator==(const Affine&, const Affine&) = default;
 };
 
-/// first `b`, then `a`.
+/// The map that applies `b` first, then `a`.
 [[nodiscard]] inline Affine operator*(const Affine& a, const Affine& b) {
     return {a.direction(b.x), a.direction(b.y), a.direction(b.z), a.point(b.offset)};
 }
 
-/// @param a  its determinant is not 0
+/// The inverse map. @param a  with a determinant other than 0
 [[nodiscard]] inline Affine inverse(const Affine& a) {
     const double k = 1.0 / a.determinant();
     const Vec3d r0 = cross(a.y, a.z) * k; // rows of the inverse

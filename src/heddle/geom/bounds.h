@@ -15,7 +15,7 @@ struct Bounds {
     Vec3d hi{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
              -std::numeric_limits<double>::infinity()};
 
-    /// Grows to hold the ball of radius `r` about `p`.
+    /// Grows the box to contain the ball of radius `r` around `p`.
     HEDDLE_HD void grow(Vec3d p, double r = 0.0) {
         for (int a = 0; a < 3; ++a) {
             lo[a] = std::min(lo[a], p[a] - r);

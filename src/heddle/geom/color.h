@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <concepts>
 #include <cstdint>
 
 namespace heddle {
 
-/// Linear RGB as control points carry it (CurveSet::color): 8 bits each in bits 0 to 23, rounded.
-/// @param linear  what lies outside [0, 1] is clamped
+/// Packs linear RGB as CurveSet::color stores it: 8 bits each in bits 0 to 23, rounded.
+/// @param linear  values outside [0, 1] are clamped
 [[nodiscard]] inline std::uint32_t pack_color(Vec3f linear) {
     std::uint32_t out = 0;
     for (int c = 0; c < 3; ++c) {
@@ -20,14 +19,32 @@ namespace heddle {
     return out;
 }
 
-/// A linear value in 8 bits by the sRGB curve, rounded.
-/// @tparam T      precision in which the curve is taken
-/// @param linear  clamped to [0, 1]; NaN gives 0
-template <std::floating_point T>
-[[nodiscard]] std::uint8_t encode_srgb(T linear) {
-    const T c = linear > T(0) ? std::min(linear, T(1)) : T(0);
-    const T s = c <= T(0.0031308) ? T(12.92) * c : T(1.055) * std::pow(c, T(1) / T(2.4)) - T(0.055);
-    return static_cast<std::uint8_t>(s * T(255) + T(0.5));
+// sRGB, of one channel. [IEC 61966-2-1] T is float or double; which one shows: of 10 million floats
+// 30 have another byte in double, and of the 256 bytes one (111) another 16-bit linear value.
+// The shader of window/presenter.cpp has the same curve.
+
+/// @param linear  in [0, 1]
+/// @return        in [0, 1]
+template <typename T>
+[[nodiscard]] T srgb_from_linear(T linear) {
+    return linear <= T(0.0031308) ? T(12.92) * linear
+                                  : T(1.055) * std::pow(linear, T(1) / T(2.4)) - T(0.055);
+}
+/// @param srgb  in [0, 1]
+/// @return      in [0, 1]
+template <typename T>
+[[nodiscard]] T linear_from_srgb(T srgb) {
+    return srgb <= T(0.04045) ? srgb / T(12.92) : std::pow((srgb + T(0.055)) / T(1.055), T(2.4));
+}
+/// @param linear  what lies outside [0, 1] is clamped; NaN gives 0
+template <typename T>
+[[nodiscard]] std::uint8_t srgb_byte(T linear) {
+    const T inside = linear > T(0) ? std::min(linear, T(1)) : T(0);
+    return static_cast<std::uint8_t>(srgb_from_linear(inside) * T(255) + T(0.5));
+}
+template <typename T>
+[[nodiscard]] T linear_from_srgb_byte(std::uint8_t byte) {
+    return linear_from_srgb(static_cast<T>(byte) / T(255));
 }
 
 } // namespace heddle

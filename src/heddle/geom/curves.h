@@ -9,8 +9,8 @@
 namespace heddle {
 
 enum class Basis : std::uint8_t {
-    Linear,     ///< polyline through its points
-    CatmullRom, ///< uniform Catmull-Rom; an open curve's first and last point are tangent points only
+    Linear,      ///< polyline through its points
+    CatmullRom,  ///< uniform Catmull-Rom; the ends of an open curve only give tangents
     CubicBSpline ///< uniform cubic B-spline; an open curve starts near its second point
 };
 
@@ -21,9 +21,9 @@ struct CurveSet {
     Basis basis = Basis::CatmullRom;
     std::vector<Vec3f> points;        ///< n control points, scene units, finite
     std::vector<std::uint64_t> first; ///< curves + 1 offsets into `points`, ascending, first is 0
-    std::vector<std::uint8_t> closed; ///< per curve, 1 = closed; empty: none is
-    std::vector<float> radius;   ///< per point, scene units; empty: `default_radius` everywhere
-    float default_radius = 0.0f; ///< scene units; 0: the file names none
+    std::vector<std::uint8_t> closed; ///< per curve, 1 = closed; empty: no curve is closed
+    std::vector<float> radius;        ///< per point, scene units; empty: `default_radius`
+    float default_radius = 0.0f;      ///< scene units; 0: the file gives none
     /// per point, linear RGB, 8 bits each in bits 0-23; empty: white
     std::vector<std::uint32_t> color;
     std::uint32_t material = 0; ///< index into Geometry::materials
@@ -36,12 +36,12 @@ struct CurveSet {
     [[nodiscard]] float radius_at(std::size_t point) const {
         return radius.empty() ? default_radius : radius[point];
     }
-    /// Spans of a curve (cubic or linear pieces between two neighbouring knots).
+    /// The number of spans of a curve, each one cubic or one line between two neighbouring knots.
     [[nodiscard]] std::size_t span_count(std::size_t curve) const {
         const std::size_t n = first[curve + 1] - first[curve];
         if (is_closed(curve)) return n < 2 ? 0 : n;
         if (basis == Basis::Linear) return n < 2 ? 0 : n - 1;
-        return n < 4 ? 0 : n - 3; // the end points of an open cubic are phantom tangent points
+        return n < 4 ? 0 : n - 3; // the end points of an open cubic only give tangents
     }
 };
 

@@ -10,7 +10,7 @@
 namespace heddle {
 namespace {
 
-/// What a kind takes where the user says nothing, and the least that makes sense.
+/// The defaults of a kind, and the smallest values that make sense.
 struct KindInfo {
     GenerateKind kind;
     std::string_view name;
@@ -22,7 +22,7 @@ struct KindInfo {
     bool cloth;
 };
 
-// Cloth has the radius of the public yarn-level garments, about 0.1; hair is in centimetres.
+// The yarn radius is that of published yarn-level garments, about 0.1; hair is in centimetres.
 constexpr double kTight = generate_parts::kTightestWale;
 constexpr double kJam = generate_parts::kJammedWeave;
 constexpr std::array<KindInfo, 10> kKinds{{
@@ -46,11 +46,11 @@ const KindInfo& info(GenerateKind kind) {
                 str("kind ", static_cast<int>(kind), " is none of the ", kKinds.size(), " kinds"));
 }
 
-/// Stitches, crossings, points, texels or quads: 20 points each still count in 64 bits with ease.
+/// Stitches, crossings, points, texels or quads: even 20 points each are easily counted in 64 bits.
 constexpr double kMostCells = 0x1p36;
-/// Texels along an axis: beyond what image files and glTF viewers take.
+/// Texels along an axis: more than image files and glTF viewers accept.
 constexpr std::int64_t kMostTexels = 65536;
-/// Vertices of a mesh: its triangles name them by 32 bits.
+/// Vertices of a mesh: its triangles have 32-bit indices.
 constexpr double kMostVertices = 0x1p32;
 
 void check_count(const KindInfo& kind, const char* name, std::int64_t n, std::int64_t least) {
@@ -64,7 +64,7 @@ void check_count(const KindInfo& kind, const char* name, std::int64_t n, std::in
 }
 
 void check_length(const KindInfo& kind, const char* name, double length, double least) {
-    // 1e-6 is for a spacing that was given as rounded decimals of the least one
+    // the tolerance of 1e-6 is for a minimum spacing that was given as rounded decimals
     if (!(length > 0.0 && length <= 1e12) || length < least * (1.0 - 1e-6)) {
         throw Error(ErrorCode::InvalidArgument,
                     str(kind.name, ": ", name, " is ", length, ", it must be above 0",
@@ -113,7 +113,7 @@ Sizes sizes(const GenerateOptions& o) {
     case GenerateKind::Rib:
     case GenerateKind::Cable:
         s.curves = {o.ny};
-        s.per_curve = {o.nx * kStitchPoints + 3}; // its end and two phantoms
+        s.per_curve = {o.nx * kStitchPoints + 3}; // the last point and two end points
         break;
     case GenerateKind::Plain:
     case GenerateKind::Twill:
@@ -133,7 +133,7 @@ Sizes sizes(const GenerateOptions& o) {
         s.vertices = (across + 1) * (down + 1);
         s.triangles = 2 * across * down;
         s.tangents = true;
-        s.texel_bytes = 2 * 3 * o.nx * o.ny; // anisotropy and roughness, RGB each
+        s.texel_bytes = 2 * 3 * o.nx * o.ny; // the anisotropy and the roughness texture, RGB
         break;
     }
     case GenerateKind::Grass:
@@ -161,7 +161,7 @@ CurveSet make_curves(std::int64_t curves,
                      FunctionRef<Vec3d(std::int64_t, std::int64_t)> point_at) {
     const auto per_curve = static_cast<std::size_t>(points_per_curve);
     CurveSet set = make_empty_curves(curves, points_per_curve, basis);
-    // by points, not by curves: a few very long yarns keep all threads busy too
+    // in parallel over points, not curves: a few very long yarns also keep all threads busy
     parallel_chunks(set.points.size(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             set.points[i] = to_float(point_at(static_cast<std::int64_t>(i / per_curve),

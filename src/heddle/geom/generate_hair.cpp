@@ -12,14 +12,14 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kHairLength = 1000.0; ///< in radii; 4 cm of hair 80 um thick
 constexpr double kTurns = 5.0;         ///< of a curl from root to tip
-constexpr double kTipRadius = 0.3;     ///< of a strand's tip, of its root's
+constexpr double kTipRadius = 0.3;     ///< radius of a strand's tip, relative to its root
 
 /// Uniform in [-1, 1).
 double signed_unit(CounterRandom& random) {
     return 2.0 * static_cast<double>(random.uniform()) - 1.0;
 }
 
-/// Point i of a sequence that fills the unit square evenly, in any order and for any count.
+/// Point i of a sequence that fills the unit square evenly; any number of points, in any order.
 ///                        [Roberts 2018, "The unreasonable effectiveness of quasirandom sequences"]
 Vec3d even_point(std::int64_t i) {
     const auto n = static_cast<double>(i);
@@ -27,7 +27,7 @@ Vec3d even_point(std::int64_t i) {
             std::fmod(0.5 + n * 0.5698402909980532, 1.0)};
 }
 
-/// A strand's axis: an arc of known length from its root along `up`, which bends towards `side`.
+/// The axis of a strand: an arc that starts at its root along `up` and bends towards `side`.
 struct Arc {
     Vec3d root, up, side;
     double length = 1.0;
@@ -44,7 +44,7 @@ struct Arc {
     }
 };
 
-/// An arc that leans `lean` radians at random and is combed towards +x.
+/// An arc that leans at random by up to `lean` radians and is combed towards +x.
 Arc make_arc(CounterRandom& random, Vec3d root, double length, double lean) {
     const double tilt = lean * signed_unit(random);
     const double turn = 0.5 * signed_unit(random);
@@ -55,7 +55,7 @@ Arc make_arc(CounterRandom& random, Vec3d root, double length, double lean) {
             1.1 + 0.25 * signed_unit(random)};
 }
 
-/// A strand as an offset from its arc that turns about it.
+/// A strand: an offset from an arc, which turns around the arc.
 struct Strand {
     Arc arc;
     Vec3d offset;        ///< from the arc's root, on the ground
@@ -85,7 +85,7 @@ Strand make_hair(const GenerateOptions& o, std::int64_t i) {
     return s;
 }
 
-/// The strands of a lock share its arc and helix, each at its own place in the lock's section.
+/// The strands of a lock share its arc and helix; each has its own offset in the lock's section.
 Strand make_curl(const GenerateOptions& o, std::int64_t i) {
     const std::int64_t lock = i / kLockStrands;
     const std::int64_t locks = (o.nx + kLockStrands - 1) / kLockStrands;

@@ -17,35 +17,35 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kLoopSway = 0.236;
 constexpr double kLoopHeight = 0.65;
 constexpr double kCourseHeight = 0.74;
-/// Half width in u of the stretch of a foot between two wales in which what differs between them is
-/// blended; the foot meets the course below outside of it, at 0.7 to 1.2.
+/// Half the width in u of the part of a foot between two wales in which their differences are
+/// blended. The foot meets the course below outside of this part, at 0.7 to 1.2.
 constexpr double kBlend = 0.5;
 
 constexpr std::int64_t kRibUnit = 4;     ///< two knit wales, two purl
-constexpr double kRibSlope = 0.75;       ///< of the wave that ribs draw themselves into, radians
+constexpr double kRibSlope = 0.75;       ///< slope of the wave that ribs contract into, radians
 constexpr std::int64_t kCableUnit = 6;   ///< two purl wales, then a cable of four
 constexpr std::int64_t kCablePeriod = 8; ///< courses from one crossing to the next
-constexpr double kCableSpan = 6.0;       ///< courses that a crossing takes
-constexpr double kCableLift = 3.3;       ///< of a crossing strand out of the middle, yarn radii
-constexpr double kCableRest = 0.5;       ///< lift of a cable that does not cross, of kCableLift
-/// At a crossing the four wales lie in the width of two. As in real cables they spread, and the
-/// ground is drawn in, so that no thread between them has to bridge more than half a wale.
-constexpr double kCableSpread = 0.3; ///< widening of the gap in a pair of wales, wales
-constexpr double kCableDraw = 0.45;  ///< shift of the ground beside a crossing, wales
+constexpr double kCableSpan = 6.0;       ///< duration of a crossing, in courses
+constexpr double kCableLift = 3.3; ///< lift of a crossing strand out of the middle, in yarn radii
+constexpr double kCableRest = 0.5; ///< lift of a cable that does not cross, relative to kCableLift
+/// At a crossing the four wales share the width of two. As in real cables they spread, and the
+/// ground is drawn in, so that no thread between them spans more than half a wale.
+constexpr double kCableSpread = 0.3; ///< widening of the gap within a pair of wales, in wales
+constexpr double kCableDraw = 0.45;  ///< shift of the ground beside a crossing, in wales
 
 double smooth(double t) {
     t = std::clamp(t, 0.0, 1.0);
     return t * t * (3.0 - 2.0 * t);
 }
 
-/// Half the distance between a loop's legs and its head, at which loops touch: fitted to a search
-/// over wale widths from 8.2 to 40 radii, within 0.03 radii.
+/// Half the distance between a loop's legs and its head at which loops touch: fitted to a search
+/// over wale widths from 8.2 to 40 radii; within 0.03 radii.
 double loop_depth(double radius, double wale) {
     const double ratio = 8.4 * radius / wale;
     return radius * (1.1 + 0.19 * ratio * ratio);
 }
 
-/// What one wale does to its loops at some height.
+/// What one wale does to its loops at a given height.
 struct Wale {
     double side = 1.0; ///< 1 knit, -1 purl
     double dx = 0.0;
@@ -63,13 +63,13 @@ public:
           lift_(kCableLift * o.radius),
           rib_{static_cast<double>(kRibUnit) * o.spacing, kRibSlope} {}
 
-    /// Width of the flat cloth; scene units.
+    /// The width of the flat cloth, in scene units.
     [[nodiscard]] double width() const {
         const double flat = static_cast<double>(wales_) * wale_;
         return kind_ == GenerateKind::Rib ? rib_.at(flat).along : flat;
     }
 
-    /// Control point on the flat cloth: `step` kStitchPoints'ths of a stitch along course `row`.
+    /// Control point `step` of course `row` of the flat cloth; each stitch has kStitchPoints.
     [[nodiscard]] Vec3d at(std::int64_t row, std::int64_t step) const;
 
 private:
@@ -77,15 +77,15 @@ private:
     [[nodiscard]] Wale
     strand(std::int64_t row, std::int64_t cable, std::int64_t position, double y) const;
 
-    /// The crossing of a cable that is nearest to a height, and how far it has gone there.
+    /// The crossing of a cable that is nearest to a height, and its progress there.
     struct Crossing {
         std::int64_t index = 0; ///< from 0 at the bottom
-        double t = 0.0;         ///< 0 begins, 1 done
+        double t = 0.0;         ///< 0 at its start, 1 at its end
         double rise = 0.0;      ///< how far the strands are apart, in [0, 1]
     };
     [[nodiscard]] Crossing crossing(std::int64_t cable, double y) const;
-    /// The course above a cable's first crossing. Neighbours take turns, else the cloth would
-    /// narrow at some courses by an amount that grows with its width.
+    /// The course above a cable's first crossing. Neighbouring cables alternate, or else the cloth
+    /// would narrow at some courses by an amount that grows with its width.
     [[nodiscard]] static std::int64_t first_crossing(std::int64_t cable) {
         return kCablePeriod / 2 + kCablePeriod / 2 * (cable % 2);
     }
@@ -104,9 +104,9 @@ Knit::Crossing Knit::crossing(std::int64_t cable, double y) const {
     return {static_cast<std::int64_t>(nearest), t, smooth(t / 0.4) * smooth((1.0 - t) / 0.4)};
 }
 
-/// The strand that lies at `position` of a cable in a course is one of four; two of them pass over
-/// the other two at each crossing. A strand keeps its chain of loops through the crossing, so it
-/// moves by height alone; a course takes the strands in the order of their places.
+/// Four strands run through a cable; this is the one at `position` in a course. At each crossing
+/// two of them pass over the other two. A strand keeps its chain of loops through the crossing, so
+/// its shift depends on height alone; a course visits the strands from left to right.
 Wale Knit::strand(std::int64_t row, std::int64_t cable, std::int64_t position, double y) const {
     const std::int64_t above = row - first_crossing(cable);
     const std::int64_t passed = above < 0 ? 0 : above / kCablePeriod + 1;
@@ -125,7 +125,7 @@ Wale Knit::wale(std::int64_t row, std::int64_t column, double y) const {
     if (kind_ != GenerateKind::Cable) return {};
     const std::int64_t cable = c / kCableUnit;
     const std::int64_t position = c % kCableUnit - 2;
-    const std::int64_t cables = wales_ / kCableUnit; // one that is cut off is left purl
+    const std::int64_t cables = wales_ / kCableUnit; // a cable that is cut off stays purl
     if (position >= 0 && cable < cables) return strand(row, cable, position, y);
     const double left = cable > 0 ? crossing(cable - 1, y).rise : 0.0;
     const double right = cable < cables ? crossing(cable, y).rise : 0.0;
@@ -138,7 +138,7 @@ Vec3d Knit::at(std::int64_t row, std::int64_t step) const {
     const double u =
         kPi * (2.0 * static_cast<double>(within) / static_cast<double>(kStitchPoints) - 1.0);
     const double y = wale_ * kLoopHeight * (1.0 + std::cos(u)) + course_ * static_cast<double>(row);
-    const double to_right = u > 0.0 ? u - kPi : u + kPi; // from the nearer border, in u
+    const double to_right = u > 0.0 ? u - kPi : u + kPi; // distance to the nearer border, in u
     const std::int64_t left = u > 0.0 ? column : column - 1;
     const double middle = y - wale_ * kLoopHeight;
     const Wale a = wale(row, left, middle);
@@ -182,7 +182,7 @@ Geometry generate_knit(const GenerateOptions& o) {
     geometry.curves.push_back(make_curves(size.curves[0], size.per_curve[0], Basis::CatmullRom,
                                           [&](std::int64_t row, std::int64_t point) {
                                               return sheet.place(
-                                                  knit.at(row, point - 1)); // point 0 is a phantom
+                                                  knit.at(row, point - 1)); // point 0: tangent
                                           }));
     geometry.curves.back().default_radius = static_cast<float>(o.radius);
     geometry.materials.push_back(

@@ -7,21 +7,21 @@
 #include <cstdint>
 #include <vector>
 
-/// The generators by kind; `generate` alone calls them, with options that `resolve` has passed.
+/// The generators of each kind; only `generate` calls them, with options that `resolve` returned.
 namespace heddle::generate_parts {
 
 /// Array sizes of a result, known before it is made.
 struct Sizes {
     std::vector<std::int64_t> curves;    ///< per curve set
     std::vector<std::int64_t> per_curve; ///< points on each curve, per curve set
-    bool point_radius = false;           ///< curve points have radii of their own
+    bool point_radius = false;           ///< each curve point has its own radius
     std::int64_t vertices = 0;
     std::int64_t triangles = 0;
     bool tangents = false;
     std::int64_t texel_bytes = 0;
 };
 
-/// Control points that a knitted stitch takes: chords of a twentieth of its length.
+/// Control points of a knitted stitch: the chords are a twentieth of its length.
 inline constexpr std::int64_t kStitchPoints = 20;
 /// Control points from one crossing of a weave to the next.
 inline constexpr std::int64_t kCrossingPoints = 8;
@@ -34,19 +34,19 @@ inline constexpr std::int32_t kLeafShapes = 4;
 /// Strands of one lock of curls.
 inline constexpr std::int64_t kLockStrands = 64;
 
-/// Wale spacing at which a stockinette of unit yarn radius is as tight as its loop shape allows.
+/// Wale spacing at which a stockinette of yarn radius 1 is as tight as its loop shape allows.
 inline constexpr double kTightestWale = 8.2;
-/// Spacing at which a plain weave of unit yarn radius jams: 4 sin 60 degrees   [Peirce 1937]
+/// Spacing at which a plain weave of yarn radius 1 jams: 4 sin 60 degrees   [Peirce 1937]
 inline constexpr double kJammedWeave = 3.4641016151377544;
 
-/// Thickness of the cloth, from the outside of a yarn to the outside of another; scene units.
+/// The thickness of the cloth, between the outer surfaces of its yarns; scene units.
 [[nodiscard]] double cloth_thickness(const GenerateOptions& options);
 
 /// Curves of equal length whose points are still zero.
 [[nodiscard]] CurveSet
 make_empty_curves(std::int64_t curves, std::int64_t points_per_curve, Basis basis);
 
-/// Curves of equal length whose points are `point_at(curve, point)`, evaluated on all threads.
+/// Curves of equal length with the points `point_at(curve, point)`, evaluated on all threads.
 [[nodiscard]] CurveSet make_curves(std::int64_t curves,
                                    std::int64_t points_per_curve,
                                    Basis basis,

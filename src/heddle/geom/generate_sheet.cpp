@@ -11,12 +11,12 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// A fold's middle radius in thicknesses: its inner face is shortened by a third, about where yarns
-/// would start to intersect, and layers have a gap of two thicknesses.
+/// Middle radius of a fold in thicknesses: its inner face is shortened by a third, about where
+/// yarns would start to intersect, and the gap between layers is two thicknesses.
 constexpr double kFoldRadius = 1.5;
 constexpr int kMostLayers = 4;
 constexpr double kMostFolds = 5.0;
-/// Slope of a hanging cloth at its hem, radians: as deep as a full curtain, no overhang.
+/// Slope of a hanging cloth at its hem, radians: as deep as a full curtain, without overhang.
 constexpr double kHemSlope = 1.1;
 
 /// Bessel function of the first kind, integer order, by its power series; |a| <= 1.2 needs 8 terms.
@@ -33,8 +33,8 @@ double bessel_j(int order, double a) {
 
 } // namespace
 
-// Jacobi-Anger: cos(a sin t) = J0 + 2 sum J_2n cos(2n t), sin(a sin t) = 2 sum J_2n+1 sin((2n+1) t)
-// integrated term by term. Order 9 of a = 1.2 is below 1e-8.
+// Jacobi-Anger: cos(a sin t) = J0 + 2 sum J_2n cos(2n t), sin(a sin t) = 2 sum J_2n+1 sin((2n+1)
+// t), integrated term by term. At a = 1.2, order 9 is below 1e-8.
 Meander::Point Meander::at(double s) const {
     const double t = 2.0 * kPi * s / wavelength;
     const double scale = wavelength / (2.0 * kPi);
@@ -50,12 +50,12 @@ Sheet::Sheet(GenerateShape shape, double width, double height, double thickness)
     : shape_(shape), width_(width), height_(height), fold_radius_(kFoldRadius * thickness) {
     const double turn = kPi * fold_radius_;
     if (shape == GenerateShape::Folded) {
-        // a layer's flat part is at least as long as a fold
+        // the flat part of a layer is at least as long as a fold
         layers_ = static_cast<int>(
             std::clamp((height + turn) / (2.0 * turn), 0.0, static_cast<double>(kMostLayers)));
         if (layers_ < 2) {
             throw Error(ErrorCode::InvalidArgument,
-                        str("a cloth ", height, " long is too short to be folded, at least ",
+                        str("a cloth ", height, " long is too short to be folded; at least ",
                             3.0 * turn, " is needed"),
                         str("raise ny at least ", std::ceil(30.0 * turn / height) / 10.0,
                             " times, or use the shape 'flat'"));

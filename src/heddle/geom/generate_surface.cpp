@@ -15,7 +15,7 @@ std::uint8_t to_byte(double unit) {
     return static_cast<std::uint8_t>(std::lround(std::clamp(unit, 0.0, 1.0) * 255.0));
 }
 
-/// Scratches: noise in [-1, 1] that runs along x, smooth over `reach` texels, new on every row.
+/// Scratches: noise in [-1, 1] that runs along x, smooth over `reach` texels; rows differ.
 double streak(std::uint64_t seed, std::int64_t x, std::int64_t row, double reach) {
     const auto r = static_cast<std::uint64_t>(row);
     const double start = static_cast<double>(to_unit_float(hash64(seed, r, ~0ULL)));
@@ -33,7 +33,7 @@ double brushing(std::uint64_t seed, std::int64_t x, std::int64_t y) {
            0.2 * streak(seed + 2, x, y / 6, 500.0);
 }
 
-/// Fills an RGB texture row by row on all threads; `texel(x, y, rgb)`.
+/// Fills an RGB texture row by row on all threads with `texel(x, y, rgb)`.
 Texture make_texture(const char* name,
                      const GenerateOptions& o,
                      FunctionRef<void(std::int64_t, std::int64_t, std::uint8_t*)> texel) {
@@ -52,7 +52,7 @@ Texture make_texture(const char* name,
     return t;
 }
 
-/// A flat grid of quads in the xy plane facing +z; texture rows run from +y down.
+/// A flat grid of quads in the xy plane that faces +z; texture rows run from +y down.
 Mesh make_plate(const GenerateOptions& o) {
     const std::int64_t across = (o.nx + kQuadTexels - 1) / kQuadTexels;
     const std::int64_t down = (o.ny + kQuadTexels - 1) / kQuadTexels;
@@ -85,7 +85,7 @@ Mesh make_plate(const GenerateOptions& o) {
     return mesh;
 }
 
-/// One of four leaves: half its width at height t (0 root, 1 tip), of half its part of the atlas.
+/// Half the width of a leaf shape at height t (0 root, 1 tip), relative to half its atlas part.
 double leaf_half_width(int shape, double t) {
     const double blade = 0.95 * std::pow(1.0 - t, 0.7) * (0.4 + 0.6 * std::min(1.0, 3.0 * t));
     switch (shape) {
@@ -96,7 +96,7 @@ double leaf_half_width(int shape, double t) {
     }
 }
 
-/// sRGB green with a light midrib, darker to the root, and the alpha mask of the leaf's shape.
+/// The leaves' texture: sRGB green, darker at the root, with a light midrib; alpha masks the shape.
 Texture make_leaf_atlas(std::uint64_t seed) {
     Texture t;
     t.name = "leaves";
@@ -117,19 +117,19 @@ Texture make_leaf_atlas(std::uint64_t seed) {
             t.texels.push_back(to_byte(0.38 * light));
             t.texels.push_back(to_byte(0.62 * light));
             t.texels.push_back(to_byte(0.2 * light));
-            t.texels.push_back(to_byte(0.5 + inside * 0.5 * kLeafWidth)); // one texel of ramp
+            t.texels.push_back(to_byte(0.5 + inside * 0.5 * kLeafWidth)); // a ramp of one texel
         }
     }
     return t;
 }
 
-/// A leaf blade: a strip of quads that bends over from a random place on the ground y = 0.
+/// A leaf blade: a strip of quads that bends over, from a random root on the ground y = 0.
 struct Blade {
-    Vec3d root, across, lean; ///< `across` the strip and `lean`, where it bends to: unit, level
+    Vec3d root, across, lean; ///< `across` the strip; `lean`: where it bends; horizontal units
     double height = 1.0, half_width = 1.0, tilt = 0.0, bend = 1.0;
     int leaf = 0;
 
-    /// Slope from upright at t in [0, 1] of its length.
+    /// The angle from upright at fraction t in [0, 1] of the length.
     [[nodiscard]] double angle(double t) const { return tilt + bend * t; }
     [[nodiscard]] Vec3d at(double t) const { // the integral of (sin, cos) of the slope
         return root + (lean * (std::cos(tilt) - std::cos(angle(t))) +

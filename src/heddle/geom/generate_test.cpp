@@ -55,7 +55,7 @@ double total_length(const Geometry& geometry) {
     return sum;
 }
 
-/// Smallest distance between points of different yarns, in yarn radii; 3 where none is below that.
+/// The smallest distance between points of different yarns, in yarn radii; 3 if none is closer.
 double closest_yarns(const Geometry& geometry) {
     const double r = static_cast<double>(geometry.curves[0].default_radius);
     using Cell = std::tuple<int, int, int>;
@@ -209,7 +209,7 @@ TEST(Generate, KnittedYarnsTouchAndDoNotIntersect) {
     EXPECT_GT(closest_yarns(generate({.kind = GenerateKind::Cable})), 0.4);
 }
 
-/// Crossings of two yarns seen along z: how many, and in how many the second lies in front.
+/// Crossings of two yarns seen along z: how many, and in how many the second is in front.
 std::pair<int, int> crossings(const CurveSet& set, std::size_t a, std::size_t b) {
     const std::vector<Vec3d> p = trace(set, a, 1), q = trace(set, b, 1);
     int all = 0, front = 0;
@@ -243,7 +243,7 @@ TEST(Generate, RibTurnsHalfOfItsWalesToTheBack) {
     const auto [all, front] = crossings(rib.curves[0], 0, 1);
     EXPECT_NEAR(all, crossings(knit.curves[0], 0, 1).first, 2); // the wave may hide one at an edge
     EXPECT_EQ(2 * front, all);
-    // the third wale's legs lie behind its heads, the first one's before them
+    // the third wale's legs lie behind its heads, the first wale's in front of them
     const auto legs_before_heads = [](const Geometry& g, std::size_t wale) {
         const Vec3f* p = &g.curves[0].points[1 + wale * 20];
         return p[5].z + p[15].z > 2.0f * p[10].z;
@@ -254,7 +254,7 @@ TEST(Generate, RibTurnsHalfOfItsWalesToTheBack) {
 
 TEST(Generate, CableStrandsCrossInFrontOfEachOther) {
     const Geometry g = generate({.kind = GenerateKind::Cable, .nx = 8, .ny = 9});
-    // course 4 is the first above a crossing: it visits the strands that came from the right first
+    // course 4 is the first above a crossing: it visits the strands from the right first
     double lo = 1e9, hi = -1e9;
     for (const Vec3d& p : trace(g.curves[0], 4, 2)) {
         lo = std::min(lo, p.z);
@@ -314,7 +314,7 @@ TEST(Generate, BrushedScratchesRunAlongTheTangent) {
     const Geometry g = generate({.kind = GenerateKind::Brushed, .nx = 256, .ny = 256});
     const Texture& t = g.textures[static_cast<std::size_t>(g.materials[0].anisotropy_map)];
     double along = 0.0, across = 0.0;
-    for (std::size_t i = 256 * 3 + 4; i < t.texels.size(); i += 3) { // the direction's y
+    for (std::size_t i = 256 * 3 + 4; i < t.texels.size(); i += 3) { // y of the direction
         along += std::abs(t.texels[i] - t.texels[i - 3]);
         across += std::abs(t.texels[i] - t.texels[i - 256 * 3]);
     }

@@ -7,9 +7,9 @@
 namespace heddle::generate_parts {
 namespace {
 
-/// Height of a yarn that passes from over one crossing yarn to under the next: an arc of two radii
-/// about the first, a straight piece, an arc about the second. Yarns touch along the arcs and are
-/// never nearer: the squared distance of two crossing arcs of angles a and b is
+/// The height of a yarn that passes over one crossing yarn and under the next: an arc of two radii
+/// around the first, a straight piece, an arc around the second. Yarns touch along the arcs and are
+/// never closer: the squared distance of two crossing arcs of angles a and b is
 /// 4 r^2 (1 + 2 (1 - cos a) (1 - cos b)).     [Peirce 1937, "The geometry of cloth structure"]
 class Crimp {
 public:
@@ -24,11 +24,11 @@ public:
             (climb < 2.0 * radius ? lo : hi) = angle_;
         }
     }
-    /// @param s  distance from the crossing, in [0, spacing]
+    /// The height of the yarn's axis. @param s  distance from the crossing, in [0, spacing]
     /// @return   height above the cloth's middle; from r at s = 0 down to -r at s = spacing
     [[nodiscard]] double height(double s) const {
         if (s > 0.5 * spacing_) return -height(spacing_ - s);
-        const double reach = 2.0 * radius_; // of an arc about the crossing yarn's axis
+        const double reach = 2.0 * radius_; // radius of the arc around the crossing yarn's axis
         const double arc = reach * std::sin(angle_);
         if (s < arc) return std::sqrt(reach * reach - s * s) - radius_;
         return reach * std::cos(angle_) - radius_ - (s - arc) * std::tan(angle_);
@@ -39,12 +39,12 @@ private:
     double angle_ = 0.0;
 };
 
-/// True where warp yarn i lies over weft yarn j.
+/// True if warp yarn i passes over weft yarn j.
 bool warp_over(GenerateKind kind, std::int64_t i, std::int64_t j) {
     const auto modulo = [](std::int64_t a, std::int64_t m) { return (a % m + m) % m; };
     switch (kind) {
     case GenerateKind::Twill: return modulo(i - j, 4) < 2;
-    case GenerateKind::Satin: return modulo(i - 2 * j, 5) != 0; // the step of 2 parts the binders
+    case GenerateKind::Satin: return modulo(i - 2 * j, 5) != 0; // step 2 separates the bindings
     default: return modulo(i + j, 2) == 0;
     }
 }
@@ -54,8 +54,8 @@ struct Weave {
     double radius, spacing;
     Crimp crimp;
 
-    /// Height of a yarn at `step` kCrossingPoints'ths of a spacing, half a spacing before its first
-    /// crossing. `over(k)`: whether it lies over the k-th yarn that it crosses.
+    /// The height of a yarn at `step`, of kCrossingPoints per spacing; step 0 is half a spacing
+    /// before the first crossing. `over(k)`: whether it passes over the k-th yarn that it crosses.
     template <typename Over>
     [[nodiscard]] double height(std::int64_t step, const Over& over) const {
         const std::int64_t s = step - kCrossingPoints / 2;
@@ -80,7 +80,7 @@ Geometry generate_weave(const GenerateOptions& o) {
     geometry.curves.push_back(make_curves(
         size.curves[0], size.per_curve[0], Basis::CatmullRom,
         [&](std::int64_t i, std::int64_t point) {
-            const std::int64_t step = point - 1; // point 0 is a phantom
+            const std::int64_t step = point - 1; // point 0 only gives a tangent
             const double z =
                 weave.height(step, [&](std::int64_t j) { return warp_over(o.kind, i, j); });
             return sheet.place(

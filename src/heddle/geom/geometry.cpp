@@ -5,7 +5,7 @@
 namespace heddle {
 namespace {
 
-/// Radius of a fiber of the yarn, per unit of the yarn's radius.
+/// The radius of a fiber of the yarn, relative to the yarn's radius.
 double share_of_yarn(const YarnType& yarn) {
     if (yarn.model == YarnModel::Solid) return 1.0;
     return static_cast<double>(yarn.fiber_radius) / static_cast<double>(yarn.model_radius);

@@ -8,7 +8,7 @@
 
 namespace heddle {
 
-/// Tangent with the sign of the bitangent: bitangent = w * cross(normal, tangent)  [glTF 2.0, 3.7.2.1]
+/// Tangent with the sign of the bitangent: bitangent = w cross(normal, tangent) [glTF 2.0, 3.7.2.1]
 struct Tangent {
     float x = 1.0f, y = 0.0f, z = 0.0f, w = 1.0f;
 };
@@ -17,7 +17,7 @@ struct Uv {
     float u = 0.0f, v = 0.0f;
 };
 
-/// Triangles of one material, all vertex arrays of one length (or empty), world space.
+/// Triangles of one material in world space; vertex arrays have one length, or are empty.
 struct Mesh {
     std::vector<Vec3f> positions;  ///< n, scene units, finite
     std::vector<Vec3f> normals;    ///< n unit vectors; empty: face normals

@@ -8,7 +8,7 @@ namespace heddle {
 
 enum class Wrap : std::uint8_t { Repeat, Clamp, Mirror };
 
-/// An image in memory, 8 bits a channel, rows from the top (glTF: v = 0 is the first row).
+/// An image in memory with 8 bits per channel and rows from the top (glTF: v = 0 is the first row).
 struct Texture {
     std::int32_t width = 0;
     std::int32_t height = 0;

@@ -47,8 +47,8 @@ level_options(const LodOptions& options, const VoxelGridInfo& info, bool with_co
     out.coverage = rule_of(options.method, with_columns);
     out.lattice = info.lattice;
     out.seed = options.seed;
-    for (std::size_t m = 0; m < info.materials.size() && m < out.normals.size(); ++m) {
-        out.normals[m] = info.materials[m].kind == MaterialKind::Surface;
+    for (std::uint32_t m = 0; m < std::min<std::size_t>(info.materials.size(), 256); ++m) {
+        if (info.materials[m].kind == MaterialKind::Surface) out.normals.add(m);
     }
     return out;
 }

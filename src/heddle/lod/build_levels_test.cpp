@@ -240,6 +240,19 @@ TEST(BuildLevels, ARegionGivesTheVoxelsOfTheWhole) {
     }
 }
 
+TEST(BuildLevels, Level0AloneHasTheCorrelationItHasAmongAllLevels) {
+    VoxelizeOptions options = with_sums(60);
+    options.correlation = true;
+    const VoxelLevels all = build(swatch(), options);
+    LodOptions none;
+    none.max_levels = 0;
+    const VoxelLevels alone = build(swatch(), options, none);
+    ASSERT_EQ(alone.size(), 1u);
+    EXPECT_TRUE(alone[0]->info().fields.correlation);
+    EXPECT_TRUE(alone[0]->info().lod.empty());
+    EXPECT_TRUE(content_of(*alone[0]) == content_of(*all[0]));
+}
+
 TEST(BuildLevels, ARebuildWithMasksGivesTheSameBits) {
     VoxelizeOptions options = with_sums(120);
     options.footprints = 4;

@@ -50,7 +50,7 @@ void open_lobes(const BlockVoxel& voxel, const LevelOptions& options, OpenLevel&
         const Lobe& lobe = stored.lobes[i];
         DirectionSums& sums = out.lobes.emplace_back();
         sums.material = lobe.material;
-        sums.normals = options.normals[lobe.material];
+        sums.normals = options.normals.has(lobe.material);
         if (stored.moments.empty()) {
             set_sums(sums, second_moment_of<kMomentSteps>(unpack(lobe.sggx)),
                      per_weight * lobe.weight);

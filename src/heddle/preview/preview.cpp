@@ -302,7 +302,7 @@ void put_pixel(PreviewImage& image, std::size_t at, Vec3f color, float alpha, bo
     }
     const float s = alpha > 0.0f ? 1.0f / alpha : 0.0f;
     std::uint8_t* to = image.rgba.data() + at * 4;
-    for (int c = 0; c < 3; ++c) to[c] = encode_srgb(color[c] * s);
+    for (int c = 0; c < 3; ++c) to[c] = srgb_byte(color[c] * s);
     to[3] = static_cast<std::uint8_t>(alpha * 255.0f + 0.5f);
 }
 

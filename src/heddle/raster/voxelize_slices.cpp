@@ -7,7 +7,7 @@
 #include <heddle/raster/brick_words.h>
 #include <heddle/raster/draw_bricks.h>
 #include <heddle/raster/slab_pass.h>
-#include <heddle/voxel/block_keeper.h>
+#include <heddle/voxel/block_sink.h>
 #include <heddle/voxelize/block_worker.h>
 
 #include <algorithm>
@@ -102,9 +102,7 @@ struct BlockFitter {
     const VoxelizeContext& context;
     const BrickGrid& grid;
     std::span<const TouchedBlock> blocks;
-    BlockVisitor* visitor;
-    BlockKeeper& keeper;
-    bool keep_sums;
+    BlockSink& sink;
     Lender<BlockSums> lender{};
 
     void fit(const DrawnBatch& batch) {
@@ -136,9 +134,7 @@ struct BlockFitter {
         }
         VoxelBlock out;
         fit_block(sums, context.fit, out);
-        if (visitor != nullptr) visitor->visit(rank, out);
-        if (!keep_sums) drop_sums(out);
-        keeper.keep(rank, out);
+        sink.take(rank, out);
     }
 };
 
@@ -229,37 +225,34 @@ std::unique_ptr<VoxelSource> SliceVoxelizer::voxelize(const Geometry& geometry,
                                                       RasterCounts* counts) {
     check_geometry(geometry);
     const auto start = Clock::now();
-    VoxelizeContext context(geometry, options, plan.lattice, plan.voxel_lo, plan.voxel_hi);
-    const BrickGrid grid(context.units, origin_of(geometry, context.units), plan.voxel_lo,
-                         plan.voxel_hi);
+    const std::unique_ptr<PreparedGeometry> prepared = take_prepared(plan, geometry, options.seed);
+    prepared->drop_bins(); // the driver finds the blocks
+    const LatticeUnits& units = prepared->units;
+    const VoxelizeContext context(*prepared, options, visitor != nullptr);
+    const BrickGrid grid(units, origin_of(geometry, units), plan.voxel_lo, plan.voxel_hi);
     const opengl::Context& driver = open().driver;
     kept_->update(geometry, options.seed);
     const slice::SectionLayers& sections = kept_->sections;
-    check_thickness(sections, geometry, context.units);
+    check_thickness(sections, geometry, units);
     const std::vector<slice::SliceChunk> chunks =
-        slice::place_slices(driver, geometry, sections, context.units,
+        slice::place_slices(driver, geometry, sections, units,
                             {.origin = grid.origin,
-                             .spacing = raster_.slice_spacing / context.units.unit,
+                             .spacing = raster_.slice_spacing / units.unit,
                              .programs = &kept_->place});
     const std::vector<TouchedBlock> blocks = find_blocks(driver, kept_->mark, grid, chunks);
-    const int bits =
-        weight_bits(context.units, chunks, thinnest_fiber(geometry, sections, context.units));
+    const int bits = weight_bits(units, chunks, thinnest_fiber(geometry, sections, units));
     RasterCounts done = count(chunks, blocks);
     BrickDrawer drawer(
         driver, kept_->kit, grid, *kept_->textures, chunks,
         {.weight_bits = bits, .memory_bytes = memory_of(options), .bricks = done.bricks});
-    BlockKeeper keeper(context.info(), blocks.size(), plan.spool, options.spool_dir);
-    if (visitor != nullptr) {
-        context.fit.fields.masks = true;
-        visitor->begin(context.info(), indices_of(blocks), plan.spool ? options.spool_dir : "");
-    }
-    BlockFitter fitter{context, grid, blocks, visitor, keeper, options.keep_sums};
+    BlockSink sink(context.info(), indices_of(blocks), plan.spool, options.spool_dir, visitor);
+    BlockFitter fitter{context, grid, blocks, sink};
     done.driver = driver.driver();
     done.setup_seconds = seconds_since(start);
     draw_all(drawer, fitter, progress, done);
     done.path = kept_->kit.path();
     if (counts != nullptr) *counts = done;
-    return keeper.finish();
+    return sink.finish();
 }
 
 std::unique_ptr<VoxelSource> voxelize_slices(const Geometry& geometry,

@@ -2,7 +2,7 @@
 
 #include <heddle/base/trig.h>
 #include <heddle/geom/bounds.h>
-#include <heddle/render/ray.h>
+#include <heddle/render/volume/ray.h>
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include <heddle/render/flake_grid.h>
 
 #include <heddle/base/parallel.h>
-#include <heddle/render/clip.h>
+#include <heddle/render/volume/clip.h>
 
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,8 @@
 #include <heddle/geom/affine.h>
 #include <heddle/geom/bounds.h>
 #include <heddle/leaf_table/leaf_table.h>
-#include <heddle/render/ray.h>
-#include <heddle/render/walk.h>
+#include <heddle/render/volume/ray.h>
+#include <heddle/render/volume/walk.h>
 #include <heddle/scatter/scatterer.h>
 
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <heddle/base/vec.h>
-#include <heddle/render/ray.h>
+#include <heddle/render/volume/ray.h>
 
 #include <cstdint>
 #include <memory>

@@ -1,5 +1,5 @@
 #include <heddle/render/light.h>
-#include <heddle/render/test_volume.h>
+#include <heddle/render/volume/test_volume.h>
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <heddle/render/light.h>
 #include <heddle/render/path_sampler.h>
 #include <heddle/render/surface_scene.h>
-#include <heddle/render/transport.h>
-#include <heddle/render/volume.h>
+#include <heddle/render/volume/transport.h>
+#include <heddle/render/volume/volume.h>
 #include <heddle/scatter/scatterer.h>
 
 #include <cstdint>

@@ -111,8 +111,7 @@ std::vector<std::uint8_t> to_srgb8(const Picture& picture, double exposure) {
     const double gain = std::exp2(exposure);
     for (const PixelSums& p : picture.pixels) {
         const double scale = p.samples == 0 ? 0.0 : 1.0 / p.samples;
-        for (const double c : {p.red, p.green, p.blue})
-            out.push_back(encode_srgb(c * scale * gain));
+        for (const double c : {p.red, p.green, p.blue}) out.push_back(srgb_byte(c * scale * gain));
         out.push_back(255);
     }
     return out;

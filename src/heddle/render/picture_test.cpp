@@ -1,7 +1,7 @@
 #include <heddle/base/error.h>
 #include <heddle/base/parallel.h>
 #include <heddle/render/render.h>
-#include <heddle/render/test_volume.h>
+#include <heddle/render/volume/test_volume.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include <heddle/base/vec.h>
 #include <heddle/geom/bounds.h>
-#include <heddle/render/ray.h>
+#include <heddle/render/volume/ray.h>
 #include <heddle/scatter/scatterer.h>
 
 #include <cstdint>

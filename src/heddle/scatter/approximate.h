@@ -1,6 +1,6 @@
 #pragma once
 
-// Elementary functions without branches or library calls, so that loops over them become vectors.
+// Elementary functions without branches or library calls, so that loops over them are vectorized.
 
 #include <heddle/base/trig.h>
 
@@ -15,12 +15,12 @@ inline constexpr float kPi = 3.14159265f;
 inline constexpr float kTwoPi = 6.28318531f;
 inline constexpr float kInversePi = 0.318309886f;
 
-/// The nearest whole number, |x| < 2^31: std::floor is a library call before SSE 4.1.
+/// The nearest whole number, for |x| < 2^31: std::floor is a library call before SSE 4.1.
 [[nodiscard]] inline float round_to_whole(float x) {
     return static_cast<float>(static_cast<std::int32_t>(x + (x < 0.0f ? -0.5f : 0.5f)));
 }
 
-/// e^x within 2e-7 of itself for x in [-87, 88]; outside, the value at the nearer end.
+/// e^x with a relative error of 2e-7 for x in [-87, 88]; outside, the value at the nearer end.
 [[nodiscard]] inline float exp_approx(float x) {
     x = std::min(88.0f, std::max(-87.0f, x)); // NaN gives -87
     const float n = round_to_whole(x * 1.44269504f);
@@ -45,7 +45,7 @@ inline constexpr float kInversePi = 0.318309886f;
     return x < 0.0f ? kPi - p : p;
 }
 
-/// e^-x I_0(x), x >= 0: the modified Bessel function, scaled; within 3e-7.  [ibid., 9.8.1, 9.8.2]
+/// e^-x I_0(x), x >= 0: the scaled modified Bessel function; within 3e-7.   [ibid., 9.8.1, 9.8.2]
 [[nodiscard]] inline float scaled_bessel_i0(float x) {
     if (x < 3.75f) {
         const float t = x * x * (1.0f / 14.0625f);

@@ -12,8 +12,8 @@ namespace heddle::detail {
     return x - kTwoPi * round_to_whole(x * (1.0f / kTwoPi));
 }
 
-/// The logistic distribution cut off at -pi and pi and continued around the circle.
-/// Like a Gaussian of deviation 1.8 scale, but its integral has a closed form.    [Chiang16]
+/// The logistic distribution, cut off at -pi and pi and repeated around the circle. Like a Gaussian
+/// with deviation 1.8 scale, but its integral has a closed form.    [Chiang16]
 class CircleLogistic {
 public:
     /// @param scale  > 0, radians
@@ -26,12 +26,12 @@ public:
 
     [[nodiscard]] float scale() const { return scale_; }
 
-    /// Density at `x`, any angle.
+    /// The density at `x`, for any angle.
     [[nodiscard]] float density(float x) const {
         const float e = exp_approx(-std::fabs(wrap_angle(x)) * inverse_);
         return e * inverse_ * inverse_range_ / ((1.0f + e) * (1.0f + e));
     }
-    /// Integral of the density from -pi to `x`; a turn more adds 1.
+    /// The integral of the density from -pi to `x`; each further turn adds 1.
     [[nodiscard]] float cumulative(float x) const {
         const float turns = round_to_whole(x * (1.0f / kTwoPi));
         return turns + (raw(x - kTwoPi * turns) - low_) * inverse_range_;

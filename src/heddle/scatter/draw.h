@@ -7,7 +7,7 @@
 
 namespace heddle::detail {
 
-/// A direction about z with density cos / pi.
+/// Draws a direction about z with density cos / pi.
 [[nodiscard]] inline Vec3f sample_cosine(float a, float b) {
     const SinCos turn = sincos_turns(static_cast<double>(b));
     const float r = std::sqrt(a);

@@ -28,7 +28,7 @@ Scatterer lobes(float width_r = .1f, float width_tt = .3f, float azimuth = .5f, 
     return test::askew(m);
 }
 
-/// From the angle to the plane across the fiber.
+/// A direction at angle `theta` from the plane across the fiber.
 Vec3f inclined(double theta, double turns = .1) {
     return test::Askew{}.world(test::direction(std::sin(theta), turns));
 }

@@ -12,17 +12,17 @@
 namespace heddle::detail {
 namespace {
 
-constexpr int kPaths = 3; ///< R, TT, TRT; what is left after them is even in azimuth
-constexpr int kCells = 8; ///< of a fiber's half width, even in the angle of its normal to the light
-/// sin(k pi / 16): the cells' edges
+constexpr int kPaths = 3; ///< R, TT, TRT; the rest is even in azimuth
+constexpr int kCells = 8; ///< in a fiber's half width, even in the angle of its normal to the light
+/// sin(k pi / 16): the edges of the cells
 constexpr float kEdge[kCells + 1] = {0.0f,        0.19509032f, 0.38268343f,
                                      0.55557023f, 0.70710678f, 0.83146961f,
                                      0.92387953f, 0.98078528f, 1.0f};
-/// sin((k + 1/2) pi / 16): their middles; the cosines are the same backwards
+/// sin((k + 1/2) pi / 16): the middles of the cells; the cosines are the same in reverse
 constexpr float kMiddle[kCells] = {0.09801714f, 0.29028468f, 0.47139674f, 0.63439328f,
                                    0.77301045f, 0.88192126f, 0.95694034f, 0.99518473f};
-/// Unpolarized reflectance from outside.
-/// @param c    cosine of incidence, [0, 1]
+/// The unpolarized reflectance from outside.
+/// @param c    cosine of the angle of incidence, in [0, 1]
 /// @param eta  > 1
 float fresnel(float c, float eta) {
     const float t = std::sqrt(1.0f - (1.0f - c * c) / (eta * eta));
@@ -36,7 +36,7 @@ float power_of_20(float x) {
     return x4 * x4 * x4 * x4 * x4;
 }
 
-/// In the order of a vector's lanes.
+/// Adds in the order of a vector's lanes.
 float sum_of(const float (&x)[kCells]) {
     static_assert(kCells == 8);
     return ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]));
@@ -46,31 +46,31 @@ float clamp(float x, float low, float high) {
     return std::min(high, std::max(low, x));
 }
 
-/// Longitudinal variance of R; TT has a quarter, TRT four times it.        [Chiang16]
+/// The longitudinal variance of R; TT has a quarter of it, TRT four times.        [Chiang16]
 float variance_of(float width_m) {
     const float w = clamp(width_m, 0.0f, 1.0f);
     const float root = 0.726f * w + 0.812f * w * w + 3.7f * power_of_20(w);
     return std::max(4.0f * kMinVariance, root * root);
 }
 
-/// Scale of the azimuth's logistic.                                        [Chiang16]
+/// The scale of the logistic of the azimuth.                                [Chiang16]
 float scale_of(float width_n) {
     const float w = clamp(width_n, 0.05f, 1.0f);
     return 0.626657069f * (0.265f * w + 1.194f * w * w + 5.372f * power_of_20(w) * w * w);
 }
 
-constexpr int kChannels = 4; ///< red, green, blue, and the mean of them: what paths are chosen by
+constexpr int kChannels = 4; ///< red, green, blue, and their mean, by which paths are chosen
 
-/// What leaves a fiber for one direction of incidence: everything that does not depend on wo.
+/// The light that leaves a fiber for one direction of incidence: all that does not depend on wo.
 struct HairLobes {
     FiberFrame frame;
     CircleLogistic azimuth;
     float v[kPaths + 1];
     Inclination in[kPaths + 1];
     float phi[kPaths][kCells + 1];           ///< exit azimuth at the cells' edges
-    float energy[kPaths][kChannels][kCells]; ///< of both halves' cells
+    float energy[kPaths][kChannels][kCells]; ///< of the cells of both halves together
     float rest[kChannels];                   ///< of the paths beyond TRT
-    float total;                             ///< of the last channel of all
+    float total;                             ///< sum of all energies in the last channel
 
     HairLobes(const ScatterMaterial& m, Vec3f axis, Vec3f wi)
         : frame(axis, wi), azimuth(scale_of(m.width_n)) {
@@ -82,14 +82,14 @@ struct HairLobes {
         const float eta = std::max(1.01f, m.eta);
         const float sine = clamp(frame.in.sin, -1.0f, 1.0f);
         const float cosine = std::max(1e-4f, frame.in.cos);
-        // the cross-section refracts as if by this [Marschner 2003]
+        // the effective index of refraction of the cross-section [Marschner 2003]
         const float eta_across = std::sqrt(std::max(1.0f, eta * eta - sine * sine)) / cosine;
         set_azimuths(eta_across);
         set_energies(m.absorption, eta, eta_across, sine, cosine);
     }
 
-    /// Light's cone turned by the scales' tilt, times 2 towards the root for R, times 1 and 4
-    /// towards the tip for TT and TRT.                       [Marschner 2003; d'Eon 2011]
+    /// The cone of light rotated by the tilt of the scales: R by 2 tilts towards the root, TT and
+    /// TRT by 1 and 4 tilts towards the tip.                         [Marschner 2003; d'Eon 2011]
     void set_inclinations(float tilt) {
         const float s = std::sin(tilt);
         const float c = std::cos(tilt);
@@ -150,8 +150,8 @@ struct HairLobes {
         }
     }
 
-    /// Density in azimuth of what leaves through the cells of path p, mean of the two halves: the
-    /// logistic averaged over the azimuths between a cell's edges.
+    /// Density in azimuth of the light that leaves through each cell of path p, mean of the two
+    /// halves: the logistic averaged over the azimuths between the edges of the cell.
     void spread_over_cells(int p, float at, float (&density)[kCells]) const {
         float both[kCells + 1];
         both[0] = static_cast<float>(-p); // the edge at p half turns: the same for both halves
@@ -161,7 +161,7 @@ struct HairLobes {
         for (int k = 0; k < kCells; ++k) {
             density[k] = 0.5f * (both[k] - both[k + 1]) / (phi[p][k + 1] - phi[p][k]);
         }
-        // where the exit azimuth turns back (a caustic of TRT) a cell has no width
+        // if the exit azimuth reverses (a caustic of TRT), a cell has no width
         const float least = 0.02f * azimuth.scale();
         for (int k = 0; k < kCells; ++k) {
             if (std::fabs(phi[p][k + 1] - phi[p][k]) >= least) continue;
@@ -191,7 +191,7 @@ struct HairLobes {
     }
 };
 
-/// A path, a cell of it, and what the uniform number that chose them leaves.
+/// A path, a cell of it, and what is left of the uniform number that chose them.
 struct Choice {
     int path = kPaths;
     int cell = 0;
@@ -219,7 +219,7 @@ ScatterValue hair_value(const Scatterer& at, Vec3f wi, Vec3f wo) {
 ScatterDraw draw_hair(const Scatterer& at, Vec3f wi, Vec3f u) {
     const HairLobes lobes(at.material, at.axis, wi);
     const Choice choice = choose(lobes, u.x);
-    // two more uniform numbers, from the bits of the three: three are used up by what matters most
+    // two more uniform numbers from the bits of the three, which make the most important choices
     const std::uint64_t more =
         hash64(std::bit_cast<std::uint32_t>(u.x), std::bit_cast<std::uint32_t>(u.y),
                std::bit_cast<std::uint32_t>(u.z));

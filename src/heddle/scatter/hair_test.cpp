@@ -47,13 +47,13 @@ TEST(Hair, SamplesFollowTheDensity) {
     EXPECT_LT(test::chi_squared_z(hair({3, 3, 9}, .4f, .8f), inclined(1.5)), test::kUnlikely);
 }
 
-/// Shares of R, TT, TRT and the rest at offset h of a cylinder, and its angles of refraction.
+/// The shares of R, TT, TRT and the rest at offset h of a cylinder, and its angles of refraction.
 struct Offset {
     double share[4];
     double outside, inside;
 };
 
-/// [Chiang16], in double and without cells.
+/// [Chiang16] in double, without cells.
 Offset at_offset(double h, double theta, double absorption, double eta) {
     const double s = std::sin(theta);
     const double c = std::cos(theta);
@@ -91,7 +91,7 @@ TEST(Hair, AbsorbsWhatACylinderDoes) {
     }
 }
 
-/// Azimuthal part of path p for light from inclination `theta`: a fine sum of wrapped logistics.
+/// The azimuthal part of path p for light at inclination `theta`: a fine sum of wrapped logistics.
 double azimuthal_of_cylinder(int p, double phi, double theta, double scale) {
     constexpr int kOffsets = 1500;
     double sum = 0.0;
@@ -106,7 +106,7 @@ double azimuthal_of_cylinder(int p, double phi, double theta, double scale) {
 }
 
 TEST(Hair, ItsCellsAreNearAFineSumOverTheOffset) {
-    // width_n and the logistic's scale for it: sqrt(pi / 8) (.265 n + 1.194 n^2), the rest < 1e-7
+    // width_n and the scale of its logistic: sqrt(pi / 8) (0.265 n + 1.194 n^2), the rest < 1e-7
     const double n = .4;
     const double scale = std::sqrt(test::kPi / 8.0) * (.265 * n + 1.194 * n * n);
     const Scatterer at = hair({.3f, .3f, .3f}, .3f, .4f, 0.0f);
@@ -139,7 +139,7 @@ TEST(Hair, ItsCellsAreNearAFineSumOverTheOffset) {
 }
 
 TEST(Hair, ReflectionLeansToTheRootByTwiceTheTilt) {
-    // black hair has R alone; where its mean inclination stands, for light from across
+    // black hair has only R: where its mean inclination is, for light perpendicular to the fiber
     Scatterer at = hair({1e4f, 1e4f, 1e4f}, .1f, .3f, .1f);
     double mean = 0.0;
     double all = 0.0;
@@ -158,7 +158,7 @@ TEST(Hair, ThinColourIsTransmittedForwardAndGlintsComeBack) {
     const Vec3f forward = evaluate(at, wi, inclined(.03, .6));
     EXPECT_GT(forward.x, 2.0f * forward.z);
     EXPECT_GT(forward.x, 3.0f * evaluate(at, wi, inclined(.03, .35)).x);
-    const Vec3f back = evaluate(at, wi, inclined(-.07, .1)); // R is white, with coloured TRT
+    const Vec3f back = evaluate(at, wi, inclined(-.07, .1)); // R is white, TRT is coloured
     EXPECT_LT(back.x / back.z, .3f * forward.x / forward.z);
 }
 

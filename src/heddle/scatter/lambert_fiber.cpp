@@ -8,15 +8,15 @@
 namespace heddle::detail {
 namespace {
 
-/// cos(theta_o) ((pi - d) cos d + sin d) / (4 pi), d the azimuth between the two: the mean, over
-/// the normals that wi sees, of <n . wo> / pi. wi's inclination cancels.       [docs/scatter.md]
+/// cos(theta_o) ((pi - d) cos d + sin d) / (4 pi), where d is the azimuth between wi and wo: the
+/// mean of <n . wo> / pi over the normals that wi sees. wi's inclination cancels. [docs/scatter.md]
 /// @param w  wo in the fiber's frame
 float density(Vec3f w) {
     const float c = std::sqrt(w.x * w.x + w.y * w.y);
     if (!(c > 0.0f)) return 0.0f;
     const float from_back = acos_approx(-w.x / c); // pi - d
     const float sum = from_back * w.x + std::fabs(w.y);
-    return std::max(0.0f, sum) * (0.25f * kInversePi); // rounding at d = pi can go below 0
+    return std::max(0.0f, sum) * (0.25f * kInversePi); // at d = pi, rounding can give less than 0
 }
 
 } // namespace
@@ -28,7 +28,7 @@ ScatterValue lambert_fiber_value(const Scatterer& at, Vec3f wi, Vec3f wo) {
 
 ScatterDraw draw_lambert_fiber(const Scatterer& at, Vec3f wi, Vec3f u) {
     const FiberFrame frame(at.axis, wi);
-    const float s = 2.0f * u.z - 1.0f; // normals seen are even across the fiber's width
+    const float s = 2.0f * u.z - 1.0f; // visible normals are even across the fiber's width
     const float c = std::sqrt(std::max(0.0f, 1.0f - s * s));
     const Vec3f normal = frame.x * c + frame.y * s;
     const Vec3f across = frame.y * c - frame.x * s;

@@ -13,13 +13,13 @@ float mean(Vec3f c) {
     return (c.x + c.y + c.z) * (1.0f / 3.0f);
 }
 
-/// A width is the deviation of theta_o about -theta_i.
+/// A width is the standard deviation of theta_o about -theta_i.
 float variance(float width) {
     return std::max(kMinVariance, width * width);
 }
 
-/// Scale of the logistic that the von Mises lobe is drawn from: weights stay within .7 to 1.3 for
-/// widths up to 1 (measured).
+/// The scale of the logistic from which the von Mises lobe is drawn: weights stay within 0.7 to 1.3
+/// for widths up to 1 (measured).
 float proposal_scale(float width) {
     return width * (0.6f + 0.35f * width);
 }
@@ -31,7 +31,7 @@ struct LobeFiber {
     float v_r, v_tt;
     float kappa;
     CircleLogistic proposal;
-    float choose_r; ///< probability
+    float choose_r; ///< probability of R
 
     LobeFiber(const ScatterMaterial& m, Vec3f axis, Vec3f wi)
         : frame(axis, wi),
@@ -55,7 +55,7 @@ struct LobeFiber {
         const float cosine = out.cos > 0.0f ? w.x / out.cos : 1.0f;
         const float r = longitudinal(in_r, out, v_r) * (0.5f * kInversePi);
         const float along_tt = longitudinal(in_tt, out, v_tt);
-        // von Mises about the far side
+        // von Mises distribution about the far side
         const float tt = along_tt * exp_approx(-kappa * (1.0f + cosine)) * (0.5f * kInversePi) /
                          scaled_bessel_i0(kappa);
         const float behind = kPi - acos_approx(cosine);
@@ -73,7 +73,7 @@ ScatterValue lobe_fiber_value(const Scatterer& at, Vec3f wi, Vec3f wo) {
 ScatterDraw draw_lobe_fiber(const Scatterer& at, Vec3f wi, Vec3f u) {
     const LobeFiber fiber(at.material, at.axis, wi);
     const bool r = u.x < fiber.choose_r;
-    // the choice leaves a uniform number over
+    // what is left of the uniform number after the choice is uniform again
     const float rest = r ? u.x / fiber.choose_r : (u.x - fiber.choose_r) / (1.0f - fiber.choose_r);
     const Inclination out = r ? sample_longitudinal(fiber.in_r, fiber.v_r, u.y, rest)
                               : sample_longitudinal(fiber.in_tt, fiber.v_tt, u.y, rest);

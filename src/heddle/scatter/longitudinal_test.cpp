@@ -48,7 +48,7 @@ TEST(Longitudinal, IntegratesToOneForEveryConeAndWidth) {
 }
 
 TEST(Longitudinal, ANarrowLobeIsAGaussianAboutTheMirroredCone) {
-    const float v = .0025f; // .05 radians
+    const float v = .0025f; // the square of 0.05 radians
     const Inclination a = at_angle(.4);
     const double peak = static_cast<double>(longitudinal(a, at_angle(-.4), v));
     const double one_off = static_cast<double>(longitudinal(a, at_angle(-.45), v));

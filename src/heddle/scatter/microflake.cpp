@@ -9,7 +9,7 @@
 namespace heddle::detail {
 namespace {
 
-/// Two uniform numbers in the bits that sggx's samplers read them from.
+/// Two given uniform numbers, as the bits that the samplers of sggx read.
 struct GivenBits {
     float a, b;
 
@@ -22,11 +22,11 @@ struct GivenBits {
 } // namespace
 
 ScatterValue specular_flake_value(const Scatterer& at, Vec3f wi, Vec3f wo) {
-    // opposite directions: any normal across them, which is the limit for one way of getting there
+    // opposite directions: any normal across them, which is the limit along one way
     const Vec3f h = normalize(wi + wo, any_perpendicular(wi));
     const float area = projected_area(at.lobe, wi);
     if (!(area > 0.0f)) return {};
-    // vndf / (4 wi.h), where wi.h cancels; D is over the whole sphere, half of Heitz's
+    // vndf / (4 wi.h), where wi.h cancels; D covers the whole sphere: half of Heitz's
     const float density = ndf(at.lobe, h) * 0.5f / area;
     return {at.material.albedo * density, density};
 }

@@ -94,7 +94,7 @@ TEST(MicroflakeDiffuse, ItsEnergyIsTheAlbedoAndSamplesFollowTheDensity) {
 }
 
 TEST(MicroflakeDiffuse, AveragedOverTheNormalsSeenItSendsAllOut) {
-    // what a caller does: draw the normal that wi sees, then scatter about it
+    // as a caller does: draw the normal that wi sees, then scatter about it
     Scatterer at = flakes({1, .5f, .1f}, ScatterModel::MicroflakeDiffuse);
     const Vec3f wi = test::Askew{}.world({.48f, .6f, .64f});
     const SggxFactor A = factor(at.lobe);
@@ -107,7 +107,7 @@ TEST(MicroflakeDiffuse, AveragedOverTheNormalsSeenItSendsAllOut) {
         EXPECT_NEAR(s.weight.x, 1.0f, 1e-5f);
         back += static_cast<double>(dot(s.direction, wi)) / kSamples;
     }
-    EXPECT_GT(back, 0.3); // diffuse flakes send light back, specular ones evenly for a sphere
+    EXPECT_GT(back, 0.3); // diffuse flakes scatter back, specular ones of a sphere evenly
 }
 
 } // namespace

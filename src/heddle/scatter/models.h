@@ -4,14 +4,14 @@
 
 namespace heddle::detail {
 
-/// A direction and what the model says of it.
+/// A direction and the model's value for it.
 struct ScatterDraw {
     Vec3f direction;
     ScatterValue value;
 };
 
-// One pair for each family: the value of two directions, and a direction drawn. Arguments as in
-// scatterer.h. microflake.cpp, lambert_fiber.cpp, lobe_fiber.cpp, hair.cpp, surface.cpp
+// Two functions for each family: one evaluates, one draws a direction. Arguments as in scatterer.h.
+// Defined in microflake.cpp, lambert_fiber.cpp, lobe_fiber.cpp, hair.cpp, surface.cpp
 
 [[nodiscard]] ScatterValue specular_flake_value(const Scatterer& at, Vec3f wi, Vec3f wo);
 [[nodiscard]] ScatterDraw draw_specular_flake(const Scatterer& at, Vec3f wi, Vec3f u);

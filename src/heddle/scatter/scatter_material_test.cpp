@@ -36,7 +36,7 @@ TEST(AbsorptionFromColor, WhiteAbsorbsNothingAndDarkerMore) {
     EXPECT_EQ(a.x, 0.0f);
     EXPECT_GT(a.y, 0.0f);
     EXPECT_GT(a.z, a.y);
-    // (ln .5 / 5.8884)^2, the polynomial at .3 by hand
+    // (ln 0.5 / 5.8884)^2: the polynomial at 0.3, by hand
     EXPECT_NEAR(a.y, .0138565f, 2e-6f);
     EXPECT_GT(absorption_from_color({0, 0, 0}, 1.0f).x, a.z); // clamped, finite
 }

@@ -17,7 +17,7 @@ constexpr ScatterModel kModels[] = {ScatterModel::MicroflakeSpecular,
                                     ScatterModel::Hair,
                                     ScatterModel::Surface};
 
-/// Every model at both ends of its parameters.
+/// Every model at both ends of its parameter ranges.
 std::vector<Scatterer> extremes() {
     std::vector<Scatterer> all;
     for (const ScatterModel model : kModels) {
@@ -41,7 +41,7 @@ std::vector<Scatterer> extremes() {
     return all;
 }
 
-/// Directions where something is undefined: along and across the axis, and a hair beside them.
+/// Directions for which something is undefined: along, across and very near to the axis.
 std::vector<Vec3f> edges() {
     const test::Askew f;
     std::vector<Vec3f> all;

@@ -9,7 +9,7 @@
 namespace heddle::detail {
 namespace {
 
-constexpr float kDielectric = 0.04f; ///< reflectance at normal incidence: glTF's, eta = 1.5
+constexpr float kDielectric = 0.04f; ///< reflectance at normal incidence, as in glTF: eta = 1.5
 
 float mean(Vec3f c) {
     return (c.x + c.y + c.z) * (1.0f / 3.0f);
@@ -23,17 +23,17 @@ float clamp01(float x) {
     return std::min(1.0f, std::max(0.0f, x));
 }
 
-/// All that does not depend on wo.
+/// All values that do not depend on wo.
 struct SurfaceLobes {
     Vec3f x, y, z;
     Vec3f in;  ///< wi in these axes
-    bool seen; ///< from its front
+    bool seen; ///< true if wi is on the front side
     Alphas alpha{};
     float stretched_in = 0.0f;
     Vec3f normal_reflectance; ///< F0
     float edge_reflectance = 0.0f;
-    Vec3f gain;    ///< for the light that mirrors pass on to each other
-    Vec3f diffuse; ///< albedo of what is not mirrored
+    Vec3f gain;    ///< for multiple scattering between mirrors
+    Vec3f diffuse; ///< albedo of the light that is not mirrored
     float choose_specular = 0.0f;
 
     SurfaceLobes(const Scatterer& at, Vec3f wi)
@@ -53,8 +53,8 @@ struct SurfaceLobes {
         return length(Vec3f{w.x * alpha.along, w.y * alpha.across, w.z});
     }
 
-    /// Light lost between mirrors comes back as more of the first reflection: white metal keeps
-    /// all; F0 once more for each reflection after it.               [Turquin 2019]
+    /// Light lost by scattering between mirrors is added to the first reflection, with one more
+    /// factor F0 for each further reflection: white metal loses nothing.        [Turquin 2019]
     void set_reflectance(const ScatterMaterial& m, SpecularAlbedo share) {
         const float specular = std::max(0.0f, m.specular);
         const float plastic = std::min(1.0f, kDielectric * specular);

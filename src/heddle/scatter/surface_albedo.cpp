@@ -9,7 +9,7 @@
 namespace heddle::detail {
 namespace {
 
-/// Nodes of a table: even in roughness, anisotropy, sqrt(cos theta) and |cos phi|.
+/// The nodes of a table: evenly spaced in roughness, anisotropy, sqrt(cos theta) and |cos phi|.
 struct Nodes {
     int roughness, anisotropy, height, azimuth;
 
@@ -46,7 +46,7 @@ std::array<SpecularAlbedo, kNodes.count()> make_table(int normals) {
     return table;
 }
 
-/// A place between two nodes.
+/// A position between two nodes.
 struct Step {
     int node;
     float f;
@@ -72,7 +72,7 @@ Alphas alphas_of(float roughness, float anisotropy) {
 }
 
 Vec3f sample_visible_normal(Alphas alpha, Vec3f wi, float u, float t) {
-    // stretched until the normals are those of a half sphere; its mirror images of wi fill a cap
+    // stretched so that the normals become a half sphere; the reflections of wi fill a cap
     const Vec3f i = normalize(Vec3f{wi.x * alpha.along, wi.y * alpha.across, wi.z});
     const SinCos turn = sincos_turns(static_cast<double>(u));
     const float z = (1.0f - t) * (1.0f + i.z) - i.z;
@@ -86,7 +86,7 @@ SpecularAlbedo integrate_specular_albedo(Alphas alpha, Vec3f wi, int count) {
         return length(Vec3f{w.x * alpha.along, w.y * alpha.across, w.z});
     };
     const float in = stretched(wi);
-    constexpr double kGolden = 0.6180339887498949; // turns of a Fibonacci lattice
+    constexpr double kGolden = 0.6180339887498949; // turns per point of a Fibonacci lattice
     const float step = 1.0f / static_cast<float>(count);
     SpecularAlbedo sum{};
     for (int i = 0; i < count; ++i) {
@@ -97,7 +97,7 @@ SpecularAlbedo integrate_specular_albedo(Alphas alpha, Vec3f wi, int count) {
         const float c = dot(wi, h);
         const Vec3f wo = h * (2.0f * c) - wi;
         if (!(wo.z > 0.0f)) continue;
-        // G2 / G1, height-correlated
+        // height-correlated G2 / G1
         const float shown = wo.z * (wi.z + in) / (wo.z * in + wi.z * stretched(wo));
         const float rest = 1.0f - c;
         sum.all += shown;

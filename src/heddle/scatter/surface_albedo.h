@@ -4,10 +4,10 @@
 
 namespace heddle::detail {
 
-/// Smallest alpha: narrower, floats do not resolve the half vector.
+/// The smallest alpha: below it, floats do not resolve the half vector.
 inline constexpr float kMinAlpha = 1e-3f;
 
-/// Widths of the distribution of normals along a surface's tangent and across it.
+/// The widths of the distribution of normals along a surface's tangent and across it.
 struct Alphas {
     float along, across;
 };
@@ -15,24 +15,24 @@ struct Alphas {
 /// alpha = roughness^2; mix(alpha, 1, anisotropy^2) along the tangent   [KHR_materials_anisotropy]
 [[nodiscard]] Alphas alphas_of(float roughness, float anisotropy);
 
-/// A normal that is seen from `wi` of a GGX surface.                     [Heitz 2018; Dupuy 2023]
+/// Draws a normal of a GGX surface that is visible from `wi`.            [Heitz 2018; Dupuy 2023]
 /// @param wi    unit, z > 0, in the surface's frame
 /// @param u, t  uniform in [0, 1)
 [[nodiscard]] Vec3f sample_visible_normal(Alphas alpha, Vec3f wi, float u, float t);
 
-/// Share of the light that GGX mirrors send out again at their first reflection.
+/// The share of light that GGX mirrors send out after one reflection.
 struct SpecularAlbedo {
-    float all;  ///< where each reflects all
-    float edge; ///< where each reflects (1 - cos)^5: Schlick's rise towards grazing
+    float all;  ///< if each mirror reflects all light
+    float edge; ///< if each reflects (1 - cos)^5: Schlick's rise towards grazing angles
 };
 
-/// Read from tables of 24 x 32 nodes (no anisotropy) and 12 x 8 x 24 x 6, each made when first
-/// read: once, thread-safe, about 25 and 160 ms. Errors: docs/scatter.md.
+/// Reads the share from tables of 24 x 32 nodes (without anisotropy) and 12 x 8 x 24 x 6 nodes;
+/// each is made at first use: once, thread-safe, in about 25 and 160 ms. Errors: docs/scatter.md.
 /// @param wi  unit, z > 0, in the surface's frame
 [[nodiscard]] SpecularAlbedo specular_albedo(float roughness, float anisotropy, Vec3f wi);
 
-/// The same by a sum over visible normals: what the table is made of.
-/// @param count  of normals
+/// The same by a sum over visible normals: the tables are made with it.
+/// @param count  number of normals
 [[nodiscard]] SpecularAlbedo integrate_specular_albedo(Alphas alpha, Vec3f wi, int count);
 
 } // namespace heddle::detail

@@ -19,7 +19,7 @@ Scatterer surface(float roughness, float metalness, float anisotropy = 0.0f) {
     return test::askew(m);
 }
 
-/// By cosine to the normal and turns from the tangent.
+/// A direction with this cosine to the normal, `turns` from the tangent.
 Vec3f from(double cosine, double turns = .1) {
     return test::Askew{}.world(test::direction(cosine, turns));
 }
@@ -58,7 +58,7 @@ struct TableError {
     double worst = 0.0, worst_grazing = 0.0, mean = 0.0;
 };
 
-/// Of the table against its integral; grazing is a cosine of .02 to .1.
+/// The error of the table against its integral; grazing means a cosine of 0.02 to 0.1.
 TableError error_of_table(bool stretched) {
     CounterRandom random{13, 1};
     TableError e;
@@ -99,7 +99,7 @@ TEST(Surface, NeverSendsOutMoreThanItGets) {
             const test::Integral sum = test::integrate(at, from(cosine), 128);
             EXPECT_LT(sum.energy[0], 1.01);
             EXPECT_LT(sum.energy[1], .5 + .5 * sum.energy[0]);
-            EXPECT_GT(sum.energy[2], .001); // black still shines: .04 and the edge
+            EXPECT_GT(sum.energy[2], .001); // black still reflects: 0.04 and the grazing edge
         }
     }
 }

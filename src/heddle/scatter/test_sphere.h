@@ -13,9 +13,9 @@ namespace heddle::test {
 
 inline constexpr double kPi = 3.141592653589793;
 inline constexpr int kRows = 24;    ///< bins in the angle to the axis
-inline constexpr int kColumns = 48; ///< and around it
+inline constexpr int kColumns = 48; ///< bins around it
 
-/// Unit, from z and a turn.
+/// A unit direction, given by its z and its azimuth in turns.
 inline Vec3f direction(double z, double turns) {
     const double r = std::sqrt(std::max(0.0, 1.0 - z * z));
     return to_float({r * std::cos(2.0 * kPi * turns), r * std::sin(2.0 * kPi * turns), z});
@@ -32,7 +32,7 @@ inline Vec3f random_point(CounterRandom& random) {
     return {x, y, random.uniform()};
 }
 
-/// Axes of a scatterer that stands askew, so that no test is along the world's axes.
+/// The axes of a scatterer in a rotated frame, so that no test is along the world's axes.
 struct Askew {
     Vec3f x, y, z;
     Askew() : z(normalize(Vec3f{0.3f, -0.5f, 0.7f})) {
@@ -72,7 +72,7 @@ struct Integral {
     double pdf = 0.0;
 };
 
-/// Integrals of evaluate and pdf over wo.
+/// Integrates evaluate and pdf over wo.
 inline Integral integrate(const Scatterer& at, Vec3f wi, int rows = 256) {
     Integral sum;
     for_each_cell(rows, [&](Vec3f wo, double area, int, int) {
@@ -83,7 +83,7 @@ inline Integral integrate(const Scatterer& at, Vec3f wi, int rows = 256) {
     return sum;
 }
 
-/// Mean weight of samples: the energy again, for lobes that no grid resolves.
+/// The mean weight of samples: the energy again, for lobes that no grid resolves.
 inline Vec3d mean_weight(const Scatterer& at, Vec3f wi, int samples = 40000) {
     CounterRandom random{7, 1};
     Vec3d sum{};
@@ -107,7 +107,7 @@ inline std::size_t bin_of(Vec3f w) {
 }
 
 /// Chi-squared of samples against pdf, in standard deviations above its mean (Wilson and Hilferty).
-/// Absorbed samples are a bin of their own, which expects what the pdf lacks to 1.
+/// Absorbed samples have a bin of their own, which expects 1 minus the integral of pdf.
 inline double chi_squared_z(const Scatterer& at, Vec3f wi, int samples = 100000, int fine = 10) {
     std::vector<double> expected(kRows * kColumns + 1);
     std::vector<double> observed(kRows * kColumns + 1);
@@ -143,7 +143,7 @@ inline double chi_squared_z(const Scatterer& at, Vec3f wi, int samples = 100000,
     return (std::cbrt(chi / degrees) - (1.0 - k)) / std::sqrt(k);
 }
 
-/// One in 30,000 for a right sampler.
+/// A correct sampler exceeds this once in 30,000 times.
 inline constexpr double kUnlikely = 4.0;
 
 } // namespace heddle::test

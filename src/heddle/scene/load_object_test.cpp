@@ -1,5 +1,6 @@
 #include <heddle/scene/load_object.h>
 
+#include <heddle/io/geometry/read_geometry.h>
 #include <heddle/scene/test_scene.h>
 
 #include <gtest/gtest.h>

@@ -3,6 +3,8 @@
 #include <heddle/base/error.h>
 #include <heddle/scatter/scatter_material.h>
 
+#include <array>
+
 namespace heddle::scene_form {
 namespace {
 
@@ -11,10 +13,30 @@ const std::vector<std::string_view> kModels{"fiber", "lobe_fiber", "hair", "surf
 constexpr Range kTiltDeg{.least = -45.0, .most = 45.0};
 constexpr Range kWidthDeg{.least = 0.0, .most = 180.0, .above = true};
 
+/// The two lobes must not send out more than comes in: from a fiber that makes light, paths never end
+/// and brightness has no bound. A key that is absent counts with its default.
+void check_lobe_energy(const TableReader& reader, const ScatterMaterial& m) {
+    constexpr double kRounding = 1e-4; // of colours given to four decimals
+    constexpr std::array<const char*, 3> kChannels{"red", "green", "blue"};
+    const auto sum = [&m](int k) { return double{m.color_r[k]} + double{m.color_tt[k]}; };
+    int worst = 0;
+    for (int k = 1; k < 3; ++k) {
+        if (sum(k) > sum(worst)) worst = k;
+    }
+    if (sum(worst) <= 1.0 + kRounding) return;
+    reader.problem(reader.has("color_tt") ? "color_tt" : "color_r",
+                   str("'color_r' and 'color_tt' sum to ", sum(worst), " in ",
+                       kChannels[static_cast<std::size_t>(worst)], " (", m.color_r[worst], " + ",
+                       m.color_tt[worst], "), allowed: at most 1"),
+                   "lower one of them; where TT is given of what enters, color_tt is "
+                   "(1 - color_r) TT");
+}
+
 void read_lobe_fiber(TableReader& reader, ScatterMaterial& m) {
     m.model = ScatterModel::LobeFiber;
-    reader.color("color_r", m.color_r, kUnit);
-    reader.color("color_tt", m.color_tt, kUnit);
+    const bool knows_r = reader.color("color_r", m.color_r, kUnit);
+    const bool knows_tt = reader.color("color_tt", m.color_tt, kUnit);
+    if (knows_r && knows_tt) check_lobe_energy(reader, m);
     reader.angle("width_r", m.width_r, kWidthDeg);
     reader.angle("width_tt", m.width_tt, kWidthDeg);
     reader.angle("azimuth_tt", m.azimuth_tt, kWidthDeg);

@@ -116,6 +116,37 @@ TEST(SceneProblems, WhatCannotBeRenderedIsRefused) {
     });
 }
 
+TEST(SceneProblems, LobesThatSendOutMoreThanComesInAreRefused) {
+    const std::string fix = "; lower one of them; where TT is given of what enters, color_tt is "
+                            "(1 - color_r) TT";
+    expect_all({
+        {material("lobe_fiber", "color_r = [0.5, 0.6, 0.25]\ncolor_tt = [0.5, 0.75, 0.75]"),
+         "scene.toml:4: 'color_r' and 'color_tt' sum to 1.35 in green (0.6 + 0.75), allowed: at "
+         "most 1" +
+             fix},
+        {material("lobe_fiber", "color_tt = 0.999\ncolor_r = [0.989, 0.959, 0.874]"),
+         "scene.toml:3: 'color_r' and 'color_tt' sum to 1.988 in red (0.989 + 0.999)"},
+        {material("lobe_fiber", "color_r = [0, 0, 0.4]\ncolor_tt = 0.6002"),
+         "sum to 1.0002 in blue"},
+        // beside the defaults, which are 0.1 and 0.6
+        {material("lobe_fiber", "color_tt = [0, 0, 1]"), "scene.toml:3: 'color_r' and 'color_tt' "
+                                                         "sum to 1.1 in blue (0.1 + 1)"},
+        {material("lobe_fiber", "color_r = 0.5"), "scene.toml:3: 'color_r' and 'color_tt' sum to "
+                                                  "1.1 in red (0.5 + 0.6)"},
+        {material("lobe_fiber", "color_r = 1.5\ncolor_tt = 1"), "'color_r' holds 1.5"},
+        {material("lobe_fiber", "color_r = 1\ncolor_tt = \"1\""), "'color_tt' is of type"},
+    });
+    const TempFolder folder;
+    static_cast<void>(folder.write("m.toml", material("lobe_fiber", "color_r = 0.5")));
+    EXPECT_NE(problems_of(folder, "include = [\"m.toml\"]\n").find("m.toml:3: 'color_r' and"),
+              std::string::npos);
+    for (const char* keys :
+         {"", "color_r = 0.4", "color_tt = 0.9", "color_r = 1\ncolor_tt = 0",
+          "color_r = 0.05\ncolor_tt = [0.95, 0.83, 0.62]", "color_r = 0.4\ncolor_tt = 0.60009"}) {
+        EXPECT_NO_THROW(static_cast<void>(read_text(folder, material("lobe_fiber", keys)))) << keys;
+    }
+}
+
 TEST(SceneProblems, TransformsThatFlattenAreRefused) {
     expect_all({
         {object_with("scale = 0"), "scene.toml:3: 'scale' has a zero"},

@@ -150,11 +150,12 @@ void TableReader::vector(std::string_view key, Vec3d& out) {
     if (const auto v = numbers(key, {3})) out = {(*v)[0], (*v)[1], (*v)[2]};
 }
 
-void TableReader::color(std::string_view key, Vec3f& out, const Range& range) {
+bool TableReader::color(std::string_view key, Vec3f& out, const Range& range) {
     const auto v = numbers(key, {1, 3}, range);
     if (v)
         out =
             to_float(v->size() == 1 ? Vec3d{1, 1, 1} * (*v)[0] : Vec3d{(*v)[0], (*v)[1], (*v)[2]});
+    return v || !has(key);
 }
 
 void TableReader::text(std::string_view key, std::string& out) {

@@ -55,7 +55,8 @@ public:
     void integer(std::string_view key, int& out, std::int64_t least, std::int64_t most);
     void vector(std::string_view key, Vec3d& out);
     /// A number, which stands for three, or three.
-    void color(std::string_view key, Vec3f& out, const Range& range = kNotNegative);
+    /// @return  false where it became a problem
+    bool color(std::string_view key, Vec3f& out, const Range& range = kNotNegative);
     /// `counts`: how many numbers are allowed; a bare number is a list of one.
     [[nodiscard]] std::optional<std::vector<double>> numbers(std::string_view key,
                                                              std::initializer_list<int> counts,

@@ -15,13 +15,13 @@ struct LobeMerge {
     std::uint8_t from = 0;
 };
 
-/// Lobes whose distances are asked for at once: a vector of floats.
+/// The number of distances that are computed at once: a vector of floats.
 inline constexpr int kPoolRow = 8;
 
 namespace detail {
 
-/// A pair's place in the order of merging: the bits of its distance, which order as it does, down to
-/// 2^-17 of it, and the higher lobe's number. Closest pairs are then minima of integers.
+/// Sort key of a pair of lobes: the upper bits of its distance (to within 2^-17 of it) and the
+/// number of the higher lobe. The closest pair is then a minimum of integers.
 [[nodiscard]] HEDDLE_INLINE std::uint32_t pair_key(float distance, int higher) {
     std::uint32_t bits;
     __builtin_memcpy(&bits, &distance, sizeof bits);
@@ -31,7 +31,7 @@ namespace detail {
     return static_cast<int>(key & (kMaxPool - 1));
 }
 
-inline constexpr std::uint32_t kNoPair = 0xffffffffu; ///< above any pair's
+inline constexpr std::uint32_t kNoPair = 0xffffffffu; ///< above the key of any pair
 
 /// out[k] = distance(i, begin + k).
 template <typename Lobes>
@@ -47,8 +47,8 @@ HEDDLE_INLINE void find_distances(
     }
 }
 
-/// Key of lobe i and the lobe of higher number that is closest to it.
-/// @param end  of the lobes, a multiple of kPoolRow
+/// The key of the closest pair of lobe i and a lobe of higher number.
+/// @param end  end of the lobes, a multiple of kPoolRow
 template <typename Lobes>
 [[nodiscard]] HEDDLE_INLINE std::uint32_t
 nearest_key(const Lobes& lobes, int i, int end, const std::uint32_t* absent) {
@@ -70,22 +70,22 @@ nearest_key(const Lobes& lobes, int i, int end, const std::uint32_t* absent) {
 
 } // namespace detail
 
-/// Merges the closest pair of `count` lobes until `keep` are left, and on while it is closer than
-/// `same`.                                                              [Fabre26, 4.4, eq. 18]
+/// Merges the closest pair of `count` lobes until `keep` are left, then further while the closest
+/// pair is closer than `same`.                                               [Fabre26, 4.4, eq. 18]
 ///
-/// Each lobe remembers the lobe of higher number that is closest to it, so that a merge costs about
-/// 2 x count distances. Of pairs as close as 2^-17 of their distance that with the lowest higher number
-/// is taken, then that with the lowest other: the result depends on the lobes' order and on nothing
-/// else.
+/// Each lobe remembers the closest lobe of higher number, so that a merge costs about 2 x count
+/// distances. Among pairs whose distances agree to 2^-17, the one with the lowest higher number is
+/// merged, then the one with the lowest lower number: the result depends only on the order of
+/// lobes.
 ///
 /// @param count    0 .. kMaxPool
 /// @param keep     1 or more
-/// @param lobes    float distance(int i, int j), i < j: >= 0, asked for lobes that are there;
-///                 void merge(int into, int from): makes lobe `into` the merged one; may have
+/// @param lobes    float distance(int i, int j), i < j: >= 0, called for lobes that exist;
+///                 void merge(int into, int from): makes lobe `into` the merged one; optionally
 ///                 void distances(int i, int begin, float (&out)[kPoolRow]): out[k] =
-///                 distance(i, begin + k), anything where that is no pair of lobes that are there
+///                 distance(i, begin + k), any value if that is no pair of existing lobes
 /// @param merges   receives at most count - 1 merges, in their order
-/// @param same     distance below which lobes need not stay apart; 0: merges just to `keep`
+/// @param same     distance below which lobes are always merged; 0: merges just to `keep`
 /// @return         number of merges
 template <typename Lobes>
 HEDDLE_INLINE int

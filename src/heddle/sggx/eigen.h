@@ -16,8 +16,8 @@ struct SymmetricEigen {
 
 namespace detail {
 
-/// Symmetric 3x3 in double, entries as in SymmetricMatrix: float products are exact in it, so no
-/// scaling is needed for the smallest or largest float entries.
+/// A symmetric 3x3 matrix in double, with the entries of SymmetricMatrix: products of floats are
+/// exact in it, so no scaling is needed for the smallest or largest float entries.
 struct SymmetricMatrixd {
     double xx, yy, zz, xy, xz, yz;
 };
@@ -27,11 +27,11 @@ struct SymmetricMatrixd {
             A.xz * w.x + A.yz * w.y + A.zz * w.z};
 }
 
-/// Largest root of t^3 - 3t - 2h, which lies in [sqrt 3, 2], to 2e-10.
+/// The largest root of t^3 - 3t - 2h, which lies in [sqrt 3, 2], to 2e-10.
 ///
-/// A quartic through the root's Chebyshev-Lobatto nodes (error < 1.6e-5) and one Newton step, which
-/// takes 3/4 of the error's square. The eigenvector below needs no more, and the eigenvalue is
-/// computed again from it.
+/// Uses a quartic through the root's Chebyshev-Lobatto nodes (error < 1.6e-5) and one Newton step,
+/// which leaves 3/4 of the squared error. The eigenvector below needs no more, and the eigenvalue
+/// is computed again from it.
 /// @param h  in [0, 1]
 [[nodiscard]] HEDDLE_HD inline double largest_cubic_root(double h) {
     const double t =
@@ -40,7 +40,7 @@ struct SymmetricMatrixd {
     return t - (t * (t * t - 3.0) - 2.0 * h) / (3.0 * (t * t - 1.0));
 }
 
-/// Unit null vector of a matrix of rank 2: the largest column of its adjugate.
+/// The unit null vector of a matrix of rank 2: the largest column of its adjugate.
 [[nodiscard]] HEDDLE_HD inline Vec3d null_vector(const SymmetricMatrixd& C) {
     const double xx = C.yy * C.zz - C.yz * C.yz;
     const double yy = C.xx * C.zz - C.xz * C.xz;
@@ -48,18 +48,18 @@ struct SymmetricMatrixd {
     const double xy = C.xz * C.yz - C.xy * C.zz;
     const double xz = C.xy * C.yz - C.xz * C.yy;
     const double yz = C.xy * C.xz - C.yz * C.xx;
-    // the adjugate is a positive multiple of v v^T: its largest diagonal names the column
+    // the adjugate is a positive multiple of v v^T: its largest diagonal entry selects the column
     const Vec3d v = (xx >= yy && xx >= zz) ? Vec3d{xx, xy, xz}
                     : (yy >= zz)           ? Vec3d{xy, yy, yz}
                                            : Vec3d{xz, yz, zz};
     return normalize(v);
 }
 
-/// Splits the plane at right angles to the eigenvector `v` into its two eigenvectors.
+/// Splits the plane perpendicular to the eigenvector `v` into its two eigenvectors.
 ///
-/// @return  axes and values of the plane in [0] (larger) and [1]; [2] is `v`
+/// @return  [0] (larger) and [1]: axes and values of the plane; [2] is `v`
 [[nodiscard]] HEDDLE_HD inline SymmetricEigen decompose_plane(const SymmetricMatrixd& A, Vec3d v) {
-    const double sign = v.z < 0.0 ? -1.0 : 1.0; // [Duff 2017], as any_perpendicular
+    const double sign = v.z < 0.0 ? -1.0 : 1.0; // [Duff 2017], as in any_perpendicular
     const double k = -1.0 / (sign + v.z);
     const Vec3d p{1.0 + sign * v.x * v.x * k, sign * v.x * v.y * k, -sign * v.x};
     const Vec3d q = cross(v, p);
@@ -72,7 +72,7 @@ struct SymmetricMatrixd {
     const double radius = std::sqrt(half * half + pq * pq);
     double c = 1.0;
     double s = 0.0;
-    if (radius > 0.0) { // the sum without cancellation gives the vector's first component
+    if (radius > 0.0) { // the first component is the sum that does not cancel
         c = half >= 0.0 ? radius + half : pq;
         s = half >= 0.0 ? pq : radius - half;
         const double scale = 1.0 / std::sqrt(c * c + s * s);
@@ -84,13 +84,13 @@ struct SymmetricMatrixd {
             {p * c + q * s, q * c - p * s, v}};
 }
 
-/// An eigenvector, and where its eigenvalue stands among the three.
+/// An eigenvector, and whether its eigenvalue is the largest or the smallest.
 struct ApartAxis {
     Vec3d axis;           ///< unit; zero where all three are equal
     bool largest = false; ///< else the smallest
 };
 
-/// The eigenvector whose eigenvalue stands farthest from the other two.           [Eberly 2014]
+/// The eigenvector whose eigenvalue is farthest from the other two.                   [Eberly 2014]
 [[nodiscard]] HEDDLE_HD inline ApartAxis find_apart_axis(const SymmetricMatrixd& M) {
     const double mean = (M.xx + M.yy + M.zz) * (1.0 / 3.0);
     SymmetricMatrixd B{M.xx - mean, M.yy - mean, M.zz - mean, M.xy, M.xz, M.yz};
@@ -115,11 +115,11 @@ struct ApartAxis {
 
 } // namespace detail
 
-/// Eigenvalues and axes of `A`, by + - * / sqrt only: the same bits on host and device.
+/// Eigenvalues and axes of `A`, with + - * / sqrt only: the same bits on host and device.
 ///
-/// The root of the characteristic cubic that stands apart is found first, and its axis, which is
-/// well conditioned whatever the other two do; they are then exact in the plane that is left.
-/// Repeated and zero eigenvalues are no special case.                              [Eberly 2014]
+/// The root of the characteristic cubic that is apart from the others is found first, and its axis,
+/// which is well conditioned for any other two; these are then exact in the plane that is left.
+/// Repeated and zero eigenvalues are no special case.                                 [Eberly 2014]
 ///
 /// @param A  entries finite
 /// @return   values descending; axes orthonormal to 1e-9, arbitrary where values are equal
@@ -151,14 +151,14 @@ struct ApartAxis {
             static_cast<float>(a.y * x.z + b.y * y.z + c.y * z.z)};
 }
 
-/// Unit eigenvector of the largest eigenvalue: an axial mean direction.
+/// The unit eigenvector of the largest eigenvalue: an axial mean direction.
 ///
 /// @param M  a second moment (or an S); entries finite
 /// @return   its component of largest magnitude is positive (the first of equals); the x axis where
 ///           all eigenvalues are equal
 [[nodiscard]] HEDDLE_HD inline Vec3f principal_direction(const SymmetricMatrix& M) {
     const detail::ApartAxis apart = detail::find_apart_axis(detail::to_double(M));
-    const Vec3d d = apart.largest ? apart.axis : decompose(M).axis[0]; // needles need no plane
+    const Vec3d d = apart.largest ? apart.axis : decompose(M).axis[0]; // no plane needed
     const Vec3d size{std::fabs(d.x), std::fabs(d.y), std::fabs(d.z)};
     const double lead = (size.x >= size.y && size.x >= size.z) ? d.x : size.y >= size.z ? d.y : d.z;
     return to_float(lead < 0.0 ? d * -1.0 : d);

@@ -7,27 +7,27 @@
 
 namespace heddle {
 
-/// Most lobes that a voxel stores.
+/// The largest number of lobes that a voxel stores.
 inline constexpr int kMaxLobes = 8;
 
-/// In which order a voxel's lobes are stored so that fewer of them can be had: with n lobes left,
-/// the last one joins the one that `targets` names.
+/// The order in which a voxel's lobes are stored so that a reader can reduce their number: with n
+/// lobes left, the last one is merged into the one that `targets` names.
 struct MergeOrder {
-    std::uint8_t place[kMaxLobes]{}; ///< where lobe i goes; the heaviest goes first
-    std::uint32_t targets = 0; ///< what lobe n at its place joins: bits 4 (n - 2) and on; 0: lobe 0
+    std::uint8_t place[kMaxLobes]{}; ///< where lobe i is stored; the heaviest is first
+    std::uint32_t targets = 0; ///< what stored lobe n merges into: bits 4 (n - 2) and up; 0: lobe 0
 };
 
-/// Numbers the lobes of a dendrogram from its root down: where a lobe splits, the part that holds the
-/// heaviest single lobe keeps the place, the other one takes the next.
+/// Numbers the lobes of a dendrogram from its root down: where a lobe splits, the part that
+/// contains the heaviest single lobe keeps the number; the other part takes the next one.
 ///
 /// @param count    1 .. kMaxLobes
-/// @param merges   count - 1 of agglomerate(count, 1)
-/// @param weight   of the lobes before they merged; equal ones go by number
+/// @param merges   the count - 1 merges of agglomerate(count, 1)
+/// @param weight   weights of the lobes before they merged; equal ones are ordered by number
 template <typename Weight>
 [[nodiscard]] HEDDLE_HD inline MergeOrder
 order_merges(int count, const LobeMerge* merges, const Weight* weight) {
-    std::uint8_t peak[kMaxLobes]; // the heaviest single lobe in each
-    bool swapped[kMaxLobes]{};    // merge k: the lobe that went holds the heavier one
+    std::uint8_t peak[kMaxLobes]; // the heaviest single lobe in each merged lobe
+    bool swapped[kMaxLobes]{};    // merge k: `from` contains the heavier one
     for (int i = 0; i < count; ++i) peak[i] = static_cast<std::uint8_t>(i);
     for (int k = 0; k + 1 < count; ++k) {
         const int a = peak[merges[k].into];

@@ -61,7 +61,7 @@ LineLobes random_lobes(std::uint64_t seed, int count, int steps) {
     std::vector<float> x, w;
     for (int i = 0; i < count; ++i) {
         const auto k = static_cast<std::uint64_t>(i);
-        // few different places: ties are common
+        // few different positions: ties are common
         x.push_back(static_cast<float>(hash64(seed, k, 0) % static_cast<std::uint64_t>(steps)));
         w.push_back(static_cast<float>(1 + hash64(seed, k, 1) % 5));
     }
@@ -93,7 +93,7 @@ TEST(MergeOrder, FewerLobesAreTheDendrogramsAndTheHeaviestIsFirst) {
         agglomerate(count, 1, whole, merges);
         const MergeOrder order = order_merges(count, merges, lobes.weight.data());
 
-        std::vector<std::set<int>> stored(static_cast<std::size_t>(count)); // by place
+        std::vector<std::set<int>> stored(static_cast<std::size_t>(count)); // by stored number
         for (int i = 0; i < count; ++i) stored[order.place[i]].insert(i);
         const int first = *stored[0].begin();
         EXPECT_EQ(lobes.weight[static_cast<std::size_t>(first)],

@@ -16,7 +16,7 @@
 
 namespace heddle {
 
-// How far a mixture of SGGX is from the directions that it stands for. Host only.
+// The error of a mixture of SGGX against the directions that it represents. Host only.
 
 /// One SGGX of a mixture with its weight, > 0 in any unit.
 struct MixtureLobe {
@@ -24,14 +24,14 @@ struct MixtureLobe {
     double weight = 1.0;
 };
 
-inline constexpr int kAreaDirections = 500; ///< along which projected areas are compared
+inline constexpr int kAreaDirections = 500; ///< projected areas are compared along these
 
-/// Points that a narrow lobe's cells are integrated with, unless said otherwise.
+/// Number of points by which the cells of a narrow lobe are integrated, by default.
 inline constexpr int kLobePoints = 8192;
 
 namespace detail {
 
-/// `count` directions of one hemisphere, one per equal area (spherical Fibonacci).
+/// `count` directions of one hemisphere, each for the same solid angle (spherical Fibonacci).
 [[nodiscard]] inline std::vector<Vec3d> fibonacci_hemisphere(int count) {
     std::vector<Vec3d> d;
     for (int i = 0; i < count; ++i) {
@@ -43,7 +43,7 @@ namespace detail {
     return d;
 }
 
-/// The quadratic form w^T S w of many w at once: their six products, each in a row.
+/// Evaluates the quadratic form w^T S w for many w at once; each of their six products is a row.
 class QuadraticForms {
 public:
     explicit QuadraticForms(const std::vector<Vec3d>& directions) {
@@ -68,7 +68,7 @@ private:
     return forms;
 }
 
-/// Centres of 64 parts of each cell, half of them: the others are opposite.
+/// The centres of 64 parts of each cell; only one of each pair of opposite centres is stored.
 struct CellParts {
     QuadraticForms form;
     std::vector<CellPair> cells;
@@ -87,7 +87,7 @@ struct CellParts {
     return parts;
 }
 
-/// Adds a lobe that no part of a cell is wider than: its density at the parts' centres.
+/// Adds a lobe that is wider than the parts of a cell: evaluates its density at their centres.
 inline void add_wide_lobe(const SggxMatrix& S, double weight, double* cell) {
     const CellParts& parts = cell_parts();
     const SymmetricMatrix adjugate{S.yy * S.zz - S.yz * S.yz, S.xx * S.zz - S.xz * S.xz,
@@ -109,14 +109,14 @@ inline void add_wide_lobe(const SggxMatrix& S, double weight, double* cell) {
     }
 }
 
-/// Adds a lobe by the normals A u of its ellipsoid, weighed by their area |A u|: as many points
-/// fall into a narrow lobe as into a wide one.
+/// Adds a lobe by the normals A u of its ellipsoid, each weighted by its area |A u|: a narrow lobe
+/// gets as many points as a wide one.
 inline void add_narrow_lobe(const SggxMatrix& S, double weight, int points, double* cell) {
     thread_local std::vector<Vec3d> u;
     thread_local std::vector<std::pair<CellPair, double>> hit;
     if (u.size() != static_cast<std::size_t>(points)) u = fibonacci_hemisphere(points);
     const SymmetricEigen e = decompose(S);
-    Vec3d column[3]; // of S^(1/2) up to a rotation of u: the pole of the points on the long axis
+    Vec3d column[3]; // S^(1/2), the pole of u on the long axis
     for (int i = 0; i < 3; ++i) column[i] = e.axis[i] * std::sqrt(std::max(0.0, e.value[i]));
     hit.clear();
     double sum = 0.0;
@@ -135,10 +135,10 @@ inline void add_narrow_lobe(const SggxMatrix& S, double weight, int points, doub
 
 } // namespace detail
 
-/// What a mixture is measured against: directions, or lobes, or both, added one by one.
+/// The reference for a mixture: directions, or lobes, or both, added one by one.
 struct DirectionTruth {
     std::array<double, kAreaDirections> sigma{}; ///< sum of weight x |w . d|
-    std::array<double, kSphereCells> cell{};     ///< sum of weight of d in it, half of it at -d
+    std::array<double, kSphereCells> cell{};     ///< sum of weights, half of each at -d
     std::array<double, 6> moment{};              ///< sum of weight x d d^T: xx yy zz xy xz yz
     double weight = 0.0;
 
@@ -157,16 +157,16 @@ struct DirectionTruth {
 
     /// Adds all directions of a lobe.
     ///
-    /// Areas and moment are closed forms. Cells, which sum to the weight: from the density at the
-    /// centres of 64 parts of each cell where the lobe is wide enough, else from `points` of its
-    /// directions. Either way within .007 of the true shares in L1 at kLobePoints.
+    /// Areas and moment have closed forms. The cells, which sum to the weight, come from the
+    /// density at the centres of 64 parts of each cell if the lobe is wide enough, else from
+    /// `points` of its directions. Both are within 0.007 of the true shares in L1 at kLobePoints.
     /// @param lobe    S positive definite
-    /// @param points  1 or more; fewer than kLobePoints: always by points, for sums of many lobes
+    /// @param points  >= 1; if fewer than kLobePoints, all lobes use points: for sums of many lobes
     void add(const MixtureLobe& lobe, int points = kLobePoints) {
         add_areas(lobe.S, lobe.weight);
         add_moment(second_moment_of(lobe.S), lobe.weight);
         const SymmetricEigen e = decompose(lobe.S);
-        // ratio of sigmas from which 8,192 points err more (.007 in L1) than the parts do (.005)
+        // ratio of sigmas below which the parts err more (0.007 in L1) than 8,192 points do
         constexpr double kWide = 0.05 * 0.05;
         if (points >= kLobePoints && e.value[2] > kWide * e.value[0]) {
             detail::add_wide_lobe(lobe.S, lobe.weight, cell.data());
@@ -190,14 +190,14 @@ private:
     }
 };
 
-/// Differences of two distributions, each scaled to weight 1.
+/// The difference of two distributions, each scaled to weight 1.
 struct DirectionError {
-    double sigma = 0.0;  ///< mean over kAreaDirections of |difference of projected area|, 0 .. 1
-    double cells = 0.0;  ///< L1 distance over kSphereCells, 0 .. 2
+    double sigma = 0.0;  ///< mean over kAreaDirections of |difference of projected area|, in [0, 1]
+    double cells = 0.0;  ///< L1 distance over kSphereCells, in [0, 2]
     double moment = 0.0; ///< largest difference of an entry of the second moment
 };
 
-/// @param a, b  of weight > 0
+/// @param a, b  with a weight > 0
 [[nodiscard]] inline DirectionError direction_error(const DirectionTruth& a,
                                                     const DirectionTruth& b) {
     DirectionError error;
@@ -215,9 +215,9 @@ struct DirectionError {
     return error;
 }
 
-/// Error of a mixture against what it stands for.
+/// The error of a mixture against its reference.
 ///
-/// Tangents and normals are not to be mixed: measure lobes of either kind by themselves.
+/// Do not mix tangents and normals: measure the lobes of either kind separately.
 /// @param lobes  at least one
 [[nodiscard]] inline DirectionError mixture_error(std::span<const MixtureLobe> lobes,
                                                   const DirectionTruth& truth) {

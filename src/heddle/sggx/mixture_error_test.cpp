@@ -90,7 +90,7 @@ TEST(MixtureError, PerpendicularNeedlesFitTheirDirectionsAndOneLobeDoesNot) {
     EXPECT_LT(mixture_error(two, truth).sigma, 1e-3);
     EXPECT_LT(mixture_error(two, truth).cells, 4e-3); // its tails
     EXPECT_LT(mixture_error(two, truth).moment, 1e-4);
-    // all of a needle's weight lies elsewhere but where the ring passes through its cells
+    // all of a needle's weight is elsewhere, except where the ring passes through its cells
     const std::vector<MixtureLobe> one{{fit_sggx(test::pool({x, y})), 2.0}};
     EXPECT_NEAR(mixture_error(one, truth).sigma, .042, .001);
     EXPECT_GT(mixture_error(one, truth).cells, 1.8);
@@ -125,7 +125,7 @@ TEST(MixtureError, CellsOfALobeAreThoseOfItsSamples) {
             sampled.cell[cells.opposite] += .5;
         }
         sampled.weight = kSamples;
-        // counts of mean n stray by .8 sqrt n, and pairs of cells are counted together
+        // counts of mean n stray by about 0.8 sqrt n, and pairs of cells are counted together
         double noise = 0.0;
         for (const double share : lobe.cell) noise += .8 * std::sqrt(.5 * share / kSamples);
         EXPECT_LT(direction_error(lobe, sampled).cells, 1.4 * 1.5 * noise + 2e-3) << shape.y;

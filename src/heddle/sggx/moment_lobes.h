@@ -10,16 +10,16 @@
 
 namespace heddle {
 
-/// Distance by `moments` below which two lobes are stored as one, even where fewer than `keep` are
-/// left. Measured: sigma loses at most 2e-5 and the L1 distance of densities .013, where packing
-/// costs 6e-4 and .01 to .02; up to half of the lobes go. At 1e-3 sigma loses 6e-5, L1 up to .05,
-/// which on flat surfaces is more than `wasserstein` errs.                        [docs/sggx.md]
+/// Distance of the method `moments` below which two lobes are stored as one, even if fewer than
+/// `keep` are left. Measured: sigma loses at most 2e-5 and the L1 distance of densities is 0.013;
+/// packing costs 6e-4 and 0.01 to 0.02. Up to half of the lobes merge. At 1e-3 sigma loses 6e-5 and
+/// L1 is up to 0.05, on flat surfaces more than the error of `wasserstein`.          [docs/sggx.md]
 inline constexpr float kSameLobe = 1e-4f;
 
 namespace detail {
 
 /// The mean of d d^T.
-/// @param moment  6 sums, as DirectionSums::moment
+/// @param moment  6 sums, as in DirectionSums::moment
 [[nodiscard]] HEDDLE_HD inline SymmetricMatrix mean_moment(const std::int64_t* moment,
                                                            std::int64_t weight) {
     const double scale = 1.0 / static_cast<double>(weight);
@@ -32,7 +32,7 @@ namespace detail {
     return mean_moment(s.moment, s.weight);
 }
 
-/// Sum of the squares of all nine entries of A - B.
+/// The sum of the squares of all nine entries of A - B.
 [[nodiscard]] HEDDLE_HD constexpr float square_distance(const SymmetricMatrix& A,
                                                         const SymmetricMatrix& B) {
     const float xx = A.xx - B.xx;
@@ -44,32 +44,32 @@ namespace detail {
     return (xx * xx + yy * yy + zz * zz) + 2.0f * (xy * xy + xz * xz + yz * yz);
 }
 
-/// The distance of lobes of different materials: farther than any of one material (which are below
-/// 4 in every method), in the same order among themselves.
+/// The distance of lobes of different materials: greater than that of any lobes of one material
+/// (which is below 4 in every method), and in the same order among themselves.
 [[nodiscard]] HEDDLE_HD constexpr float keep_apart(float distance) {
-    return (distance + 0x1p-60f) * 0x1p62f; // a factor: a sum would round small differences away
+    return (distance + 0x1p-60f) * 0x1p62f; // a product: a sum would lose small differences
 }
 
 } // namespace detail
 
-/// True if a merged lobe takes `a`'s material and kind, not `b`'s: the heavier's, of equally heavy
-/// ones that of lower id.
+/// True if a merged lobe takes the material and kind of `a`, not of `b`: those of the heavier lobe,
+/// or, of equally heavy ones, of the lower material id.
 [[nodiscard]] HEDDLE_HD constexpr bool leads(const DirectionSums& a, const DirectionSums& b) {
     return a.weight != b.weight ? a.weight > b.weight : a.material <= b.material;
 }
 
-/// The same lobe in the other kind: normals of fibers with these tangents, or tangents that lie
-/// evenly in surfaces with these normals.
+/// The same lobe in the other kind: normals of fibers with these tangents, or tangents that are
+/// evenly spread in surfaces with these normals.
 ///
-/// Either is the ring across d, of second moment (I - d d^T) / 2: M' = (weight I - M) / 2, entries
-/// rounded towards 0.
+/// Both are the ring across d, with second moment (I - d d^T) / 2: M' = (weight I - M) / 2. Entries
+/// are rounded towards 0.
 [[nodiscard]] HEDDLE_HD constexpr DirectionSums turned_across(DirectionSums s) {
     for (int k = 0; k < 6; ++k) s.moment[k] = ((k < 3 ? s.weight : 0) - s.moment[k]) / 2;
     s.normals = !s.normals;
     return s;
 }
 
-/// Both lobes as one, exact: sums are added. The lighter one's take the heavier one's kind first.
+/// Merges two lobes exactly: adds their sums, the lighter's converted to the heavier's kind.
 [[nodiscard]] HEDDLE_HD constexpr DirectionSums merged(const DirectionSums& a,
                                                        const DirectionSums& b) {
     const bool first = leads(a, b);
@@ -81,13 +81,13 @@ namespace detail {
     return sum;
 }
 
-/// Lobes for agglomerate() by the method `moments`: the closest pair costs projected area least.
+/// Lobes for agglomerate() by the method `moments`: merging the closest costs projected area least.
 ///
 /// distance = w_i w_j / (w_i + w_j) |M_i - M_j|^2   (Frobenius; w: shares of weight; [Ward 1963])
 ///
-/// The merged lobe keeps the second moment, so the error of sigma(w) starts with the fourth. Where
-/// a lobe's fourth moment is near M x M (it is M x M for a needle), merging changes the sum of
-/// w M x M by this factor times D x D, D = M_i - M_j, whose part of fourth order is in size a
+/// The merged lobe keeps the second moment, so the error of sigma(w) starts with the fourth moment.
+/// If a lobe's fourth moment is close to M x M (for a needle it is M x M), merging changes the sum
+/// of w M x M by this factor times D x D, D = M_i - M_j; the size of its fourth-order part is a
 /// constant times |D|^2. At most 1/2: perpendicular needles, half of the weight each.
 ///                                                                               [docs/sggx.md]
 class MomentLobes {
@@ -102,7 +102,7 @@ public:
         }
         per_weight_ = 1.0f / static_cast<float>(total);
         for (int i = 0; i < count_; ++i) update(i);
-        for (int i = count_; i % kPoolRow != 0; ++i) { // read by distances() and not used
+        for (int i = count_; i % kPoolRow != 0; ++i) { // padding: read by distances(), not used
             for (auto& row : mean_) row[i] = 0.0f;
             share_[i] = 1.0f;
         }
@@ -160,11 +160,11 @@ private:
     int count_;
     float per_weight_;
     bool one_material_ = true;
-    float mean_[6][kMaxPool]; ///< by entry: distances to many lobes are a loop of vectors
+    float mean_[6][kMaxPool]; ///< by entry, so that distances to many lobes are vectorized
     float share_[kMaxPool];
 };
 
-/// Moves what `made` merges left of the lobes, or of what goes with each, to the front in its order.
+/// Moves the lobes that are left after `made` merges, or data of the lobes, to the front, in order.
 /// @return  how many are left
 template <typename T>
 HEDDLE_INLINE int compact_lobes(std::span<T> lobes, const LobeMerge* merges, int made) {
@@ -175,22 +175,6 @@ HEDDLE_INLINE int compact_lobes(std::span<T> lobes, const LobeMerge* merges, int
         if ((gone >> i & 1) == 0) lobes[left++] = lobes[i];
     }
     return static_cast<int>(left);
-}
-
-/// Reduces pooled lobes to at most `keep` by the method `moments`, and to fewer while two are
-/// closer than `same`. Lobes of different materials merge only when no two of one material are left.
-///
-/// @param lobes   0 .. kMaxPool, weights > 0; those left stand at the front, in their order
-/// @param keep    1 or more
-/// @param merges  receives size - return value merges, numbers as `lobes` stood before
-/// @param same    0: merge down to `keep` and no further
-/// @return        how many are left
-HEDDLE_HD inline int
-reduce_lobes(std::span<DirectionSums> lobes, int keep, LobeMerge* merges, float same = kSameLobe) {
-    const int count = static_cast<int>(lobes.size());
-    if (count < 2) return count;
-    MomentLobes policy(lobes);
-    return compact_lobes(lobes, merges, agglomerate(count, keep, policy, merges, same));
 }
 
 } // namespace heddle

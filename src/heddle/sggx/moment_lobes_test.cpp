@@ -3,6 +3,7 @@
 #include <heddle/sggx/mixture_error.h>
 #include <heddle/sggx/moments.h>
 #include <heddle/sggx/test_lobe.h>
+#include <heddle/sggx/test_reduce.h>
 
 #include <gtest/gtest.h>
 
@@ -39,10 +40,10 @@ Pool random_pool(int count, std::uint32_t materials, CounterRandom& random) {
     return pool;
 }
 
-/// Reduces and drops what is gone.
+/// Reduces the pool and removes the lobes that merged into others.
 std::vector<LobeMerge> reduce(Pool& pool, int keep, float same = 0.0f) {
     std::vector<LobeMerge> merges(kMaxPool);
-    const int left = reduce_lobes(pool, keep, merges.data(), same);
+    const int left = test::reduce_lobes(pool, keep, merges.data(), same);
     merges.resize(pool.size() - static_cast<std::size_t>(left));
     pool.resize(static_cast<std::size_t>(left));
     return merges;
@@ -144,7 +145,7 @@ TEST(MomentLobes, MaterialsStayApartUntilNothingElseIsLeft) {
     CounterRandom random{11, 5};
     for (int trial = 0; trial < 50; ++trial) {
         Pool pool = random_pool(24, 4, random);
-        pool.push_back(needle({1, 0, 0}, 1e-5, 9)); // a trifle, and still itself
+        pool.push_back(needle({1, 0, 0}, 1e-5, 9)); // a tiny weight, and still not merged
         Pool five = pool;
         reduce(five, 5, 1e-3f);
         std::vector<std::uint32_t> materials;
@@ -162,7 +163,7 @@ TEST(MomentLobes, TheHeavierOneGivesMaterialAndKindAndTiesGoToTheLowerId) {
     EXPECT_EQ(tangents, merged(fiber, surface));
     EXPECT_EQ(tangents.material, 5u);
     EXPECT_FALSE(tangents.normals);
-    // a surface of normal x has its tangents in the ring about x
+    // a surface with normal x has its tangents in the ring about x
     EXPECT_LT(test::difference(mean_of(tangents), {0, .125f, .875f, 0, 0, 0}), 1e-6);
 
     surface.weight = fiber.weight;
@@ -181,9 +182,9 @@ TEST(MomentLobes, DistanceOfFiberAndSurfaceIsTakenInTheHeaviersKind) {
 
 TEST(MomentLobes, OneLobeOrNoneIsLeftAlone) {
     Pool pool;
-    EXPECT_EQ(reduce_lobes(pool, 3, nullptr), 0);
+    EXPECT_EQ(test::reduce_lobes(pool, 3, nullptr), 0);
     pool = {needle({1, 2, 3}, 1.0)};
-    EXPECT_EQ(reduce_lobes(pool, 3, nullptr), 1);
+    EXPECT_EQ(test::reduce_lobes(pool, 3, nullptr), 1);
 }
 
 } // namespace

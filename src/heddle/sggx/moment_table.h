@@ -4,8 +4,8 @@
 
 namespace heddle::detail {
 
-// Nodes in u = (m_y / m_x)^(1/4), from 1/16 (below it all sigmas but one are kMinSigma), and in
-// v = (m_z / m_y)^(1/2), from 0. Steps are powers of two: nodes, and so the sphere, are exact.
+// Nodes in u = (m_y / m_x)^(1/4), from 1/16 (below it all sigmas but one are kMinSigma), and in v =
+// (m_z / m_y)^(1/2), from 0. Steps are powers of two: nodes, hence the sphere, are exact.
 inline constexpr int kTableCountU = 16;
 inline constexpr int kTableCountV = 9;
 inline constexpr float kTableStepsU = 16.0f; ///< per unit of u
@@ -14,9 +14,9 @@ inline constexpr float kTableMinU = 1.0f / 16.0f;
 
 /// Node (i, j) of the table of the inverse of second_moment_of: 4 floats.
 ///
-/// [0] sigma_x, [1] sigma_y / u^2, [2] sigma_z / (u^2 v), [3] 0 (so that rows are vectors). Cubic
-/// interpolation leaves 1e-5 in M. Made by bench/sggx_moment_table.cpp; a test inverts it again.
-/// A table and not code that fills it: filling takes longer than compilers let a constant take.
+/// [0] sigma_x, [1] sigma_y / u^2, [2] sigma_z / (u^2 v), [3] 0 (pads a row to a vector). Cubic
+/// interpolation leaves an error of 1e-5 in M. Made by bench/sggx_moment_table.cpp; a test inverts
+/// it. It is a table because compilers limit the time that evaluating a constant may take.
 /// @param i  0 .. kTableCountU - 1
 /// @param j  0 .. kTableCountV - 1
 [[nodiscard]] HEDDLE_HD inline const float* moment_table_node(int i, int j) {

@@ -10,9 +10,9 @@
 
 namespace heddle {
 
-/// Smallest sigma along an eigenvector that a fit gives: half a step of the packed sigma, so the
-/// narrowest that still rounds to a byte above 0. An aligned bundle then keeps M to 5e-5, and S
-/// stays positive definite in float (its eigenvalue 3.8e-6 is 60 times an entry's rounding).
+/// The smallest sigma along an eigenvector that a fit returns: half a step of the packed sigma,
+/// hence the smallest that still rounds to a byte above 0. An aligned bundle then keeps M to 5e-5,
+/// and S stays positive definite in float (its eigenvalue 3.8e-6 is 60 times an entry's rounding).
 inline constexpr float kMinSigma = 1.0f / 510.0f;
 
 namespace detail {
@@ -20,13 +20,13 @@ namespace detail {
 /// Second moment along the three eigenvectors of an SGGX, trace 1.
 ///
 /// M_i ~ a_i (P_j + P_k), P_i = a_i R_D(a_j, a_k, a_i)                              [docs/sggx.md]
-/// R_D by duplication [Carlson 1995]; all three share one sequence. Five steps leave 7e-9 at any
-/// ratio down to 0; each step divides the error by 60.
-/// @param kSteps  of duplication
-/// @param a  eigenvalues of S in any scale, the first the largest and > 0
+/// R_D by duplication [Carlson 1995]; all three share one sequence. Five steps leave an error of
+/// 7e-9 at any ratio down to 0; each step divides the error by 60.
+/// @param kSteps  number of duplications
+/// @param a  eigenvalues of S in any scale; the first is the largest and > 0
 template <int kSteps = 5>
 [[nodiscard]] HEDDLE_HD inline Vec3d moment_of_eigenvalues(Vec3d a) {
-    const double floor = 1e-16 * a.x; // a zero eigenvalue: P is 0 in the limit, not 0 x infinity
+    const double floor = 1e-16 * a.x; // zero eigenvalue: P is 0 in the limit, not 0 x infinity
     a.y = a.y > floor ? a.y : floor;
     a.z = a.z > floor ? a.z : floor;
     Vec3d b = a;
@@ -54,12 +54,12 @@ template <int kSteps = 5>
     return M * (1.0 / (M.x + M.y + M.z));
 }
 
-/// Weights of the values at nodes -1, 0, 1, 2.
+/// Weights of the values at the nodes -1, 0, 1 and 2.
 struct CubicWeights {
     float a, b, c, d;
 };
 
-/// Weights that give the cubic through four nodes at `f`.
+/// The weights that evaluate the cubic through four nodes at `f`.
 [[nodiscard]] HEDDLE_HD constexpr CubicWeights cubic_weights(float f) {
     const float a = f + 1.0f;
     const float c = f - 1.0f;
@@ -68,7 +68,7 @@ struct CubicWeights {
             a * f * c * (1.0f / 6.0f)};
 }
 
-/// The table along v in one row of nodes.
+/// Interpolates the table along v in one row of nodes.
 [[nodiscard]] HEDDLE_HD inline Vec3f interpolate_row(const float* node, CubicWeights w) {
     return {(w.a * node[0] + w.b * node[4]) + (w.c * node[8] + w.d * node[12]),
             (w.a * node[1] + w.b * node[5]) + (w.c * node[9] + w.d * node[13]),
@@ -79,13 +79,13 @@ struct CubicWeights {
     return x > low ? (x < high ? x : high) : low; // NaN gives low
 }
 
-/// First of the four nodes around `x`, kept inside a table of `count` nodes.
+/// The first of the four nodes around `x`, clamped to a table of `count` nodes.
 [[nodiscard]] HEDDLE_HD inline int first_node(float x, int count) {
     const int i = static_cast<int>(x) - 1;
     return i < 0 ? 0 : i > count - 4 ? count - 4 : i;
 }
 
-/// The three sigmas of the SGGX whose second moment has eigenvalues `m`, not yet bounded below.
+/// The three sigmas of the SGGX whose second moment has eigenvalues `m`, without the lower bound.
 ///
 /// @param m  descending, the first > 0; any scale
 [[nodiscard]] HEDDLE_HD inline Vec3f sigma_of_moment(Vec3d m) {
@@ -104,7 +104,7 @@ struct CubicWeights {
     const CubicWeights along_v = cubic_weights(y - static_cast<float>(j + 1));
     const float* node = moment_table_node(i, j);
     constexpr int kRow = 4 * kTableCountV;
-    // written out: -O2 keeps short loops as loops, which takes twice the time
+    // unrolled: -O2 keeps short loops as loops, which takes twice the time
     const Vec3f g = (interpolate_row(node, along_v) * along_u.a +
                      interpolate_row(node + kRow, along_v) * along_u.b) +
                     (interpolate_row(node + 2 * kRow, along_v) * along_u.c +
@@ -119,7 +119,7 @@ struct CubicWeights {
 /// M has the eigenvectors of S; its eigenvalues are complete elliptic integrals of S's
 /// (docs/sggx.md), here to a float's rounding.
 /// @param S  positive semi-definite, entries finite, not 0; its scale does not matter
-/// @param kSteps  of detail::moment_of_eigenvalues
+/// @param kSteps  as in detail::moment_of_eigenvalues
 /// @return   trace 1
 template <int kSteps = 5>
 [[nodiscard]] HEDDLE_HD inline SymmetricMatrix second_moment_of(const SggxMatrix& S) {
@@ -128,7 +128,7 @@ template <int kSteps = 5>
     return compose({{m.x, m.y, m.z}, {e.axis[0], e.axis[1], e.axis[2]}});
 }
 
-/// Second moment of the normals of thin cylinders whose tangents' is `M`: they lie evenly across.
+/// The second moment of the normals of thin cylinders whose tangents have the second moment `M`.
 /// @param M  trace 1
 /// @return   trace 1
 [[nodiscard]] HEDDLE_HD inline SymmetricMatrix moment_of_normals(const SymmetricMatrix& M) {

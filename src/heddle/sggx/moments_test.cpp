@@ -19,7 +19,7 @@ double area(const SggxMatrix& S, Vec3d w) {
     return projected_area(S, to_float(w));
 }
 
-/// Integral of w w^T D over the sphere by brute force, and of D itself in `total`.
+/// Integrates w w^T D over the sphere by brute force, and D itself into `total`.
 SymmetricMatrix integrate_moment(const SggxMatrix& S, double& total) {
     double sum[6]{};
     total = 0.0;
@@ -78,7 +78,7 @@ TEST(Moments, FitGivesItsMomentBack) {
         const SymmetricMatrix unit{M.xx * scale, M.yy * scale, M.zz * scale,
                                    M.xy * scale, M.xz * scale, M.yz * scale};
         ASSERT_LT(test::difference(back, unit), 5e-5) << u << ' ' << v;
-        // away from the bound on sigma
+        // outside of the lower bound of sigma
         if (u > 0.2 && v > 0.1) {
             ASSERT_LT(test::difference(back, unit), 2e-5) << u << ' ' << v;
         }
@@ -95,7 +95,7 @@ TEST(Moments, FitIsNormalizedAndNoSigmaIsBelowTheBound) {
             fit_sggx(test::rotate({1.0, u * u * u * u, v * u * u * u * u}, random));
         const SymmetricEigen e = decompose(S);
         EXPECT_LE(e.value[0], 1.0 + 1e-6);
-        EXPECT_GT(e.value[2], 0.95 * least * least); // float entries: up to 2 % of it
+        EXPECT_GT(e.value[2], 0.95 * least * least); // rounding of float entries: up to 2 % of it
         if (i % 500 != 0) continue;
         double mean = 0.0; // of sigma over the sphere: 1/2
         for (const Vec3d& w : test::sphere(20000)) mean += area(S, w) / 20000.0;
@@ -118,10 +118,10 @@ TEST(Moments, EveryTableNodeInvertsItsMoment) {
     }
 }
 
-/// A set of directions and how far the projected area of its SGGX may be from the set's own.
+/// A set of directions, and how far the projected area of its SGGX may be from the set's own.
 ///
-/// Crossed bundles are no SGGX: any flat one is off by at least .104 somewhere, and this one, which
-/// is the nearest in the mean square over their plane, by .137 (docs/sggx.md).
+/// Crossed bundles are no SGGX: any flat one errs by at least 0.104 somewhere, and this one, which
+/// is the nearest in the mean square over their plane, by 0.137 (docs/sggx.md).
 struct Leaf {
     const char* name;
     std::vector<Vec3d> directions;

@@ -11,12 +11,12 @@
 
 namespace heddle {
 
-/// The correlation r that a byte stands for is the cosine of its angle: 254 steps from r = -1 to 1.
+/// The correlation r of a byte is the cosine of its angle: 254 steps from r = -1 to 1.
 inline constexpr std::int32_t kAngleSteps = 254;
 
 namespace detail {
 
-/// cos of 0 .. pi / 4 to a double's rounding.
+/// cos of 0 .. pi / 4 to the rounding of a double.
 [[nodiscard]] constexpr double cosine_series(double x) {
     double term = 1.0;
     double sum = 1.0;
@@ -51,21 +51,21 @@ namespace detail {
     return table;
 }
 
-/// The correlation of angle k, in steps.
+/// The correlation of an angle of k steps.
 [[nodiscard]] HEDDLE_HD inline float cosine_of(std::int32_t k) {
     static constexpr std::array<float, kAngleSteps + 1> kCosine = make_cosines();
     return kCosine[static_cast<std::size_t>(k)];
 }
 
-/// Angle in steps of a correlation byte: the larger the byte, the larger r.
+/// The angle of a correlation byte, in steps: the larger the byte, the larger r.
 [[nodiscard]] HEDDLE_HD constexpr std::int32_t angle_of(std::int32_t byte) {
     return kAngleSteps - byte;
 }
 
-/// The largest k with cosine_of(k) >= r, of 1 .. kAngleSteps - 2: its r and the next one's enclose r.
+/// The largest k in 1 .. kAngleSteps - 2 with cosine_of(k) >= r: k and k + 1 enclose r.
 [[nodiscard]] HEDDLE_HD inline std::int32_t floor_angle(float r) {
     const float x = r < 0.0f ? -r : r;
-    // acos to 7e-5 [Abramowitz and Stegun 4.4.45], .006 of a step
+    // acos to 7e-5 [Abramowitz and Stegun 4.4.45], 0.006 of a step
     const float root = std::sqrt(x < 1.0f ? 1.0f - x : 0.0f);
     const float angle = root * (1.5707288f + x * (-0.2121144f + x * (0.0742610f - 0.0187293f * x)));
     const float steps = angle * (static_cast<float>(kAngleSteps) * 0.31830987f);
@@ -78,7 +78,7 @@ namespace detail {
 }
 
 /// True if the correlations of three angles, in steps, are those of a positive definite matrix: the
-/// angles are those between three vectors that lie in no plane.
+/// angles are those between three vectors that are not in one plane.
 [[nodiscard]] HEDDLE_HD constexpr bool
 is_definite(std::int32_t xy, std::int32_t xz, std::int32_t yz) {
     return xy < xz + yz && xz < xy + yz && yz < xy + xz && xy + xz + yz < 2 * kAngleSteps;
@@ -90,8 +90,8 @@ struct AnglePair {
     float error[2];
 };
 
-/// @param product  of the two sigmas: weighs the error
-/// @param shift    0: the angles around r; -1: one step less
+/// @param product  product of the two sigmas: weights the error
+/// @param shift    0: the angles around r; -1: one step lower
 [[nodiscard]] HEDDLE_HD inline AnglePair angle_pair(float r, float product, std::int32_t shift) {
     const std::int32_t k = floor_angle(r) + shift;
     AnglePair p{k > 1 ? k : 1, {}};
@@ -102,9 +102,9 @@ struct AnglePair {
     return p;
 }
 
-/// Stores, of the 8 choices of neighbouring angles, the definite one with the least squared error in S.
+/// Of the 8 choices of neighbouring angles, stores the definite one with least squared error in S.
 ///
-/// @return  false if none is
+/// @return  false if none is definite
 [[nodiscard]] HEDDLE_HD inline bool
 store_angles(Vec3f r, Vec3f product, std::int32_t shift, PackedSggx& out) {
     const AnglePair x = angle_pair(r.x, product.x, shift);
@@ -128,13 +128,13 @@ store_angles(Vec3f r, Vec3f product, std::int32_t shift, PackedSggx& out) {
     return found;
 }
 
-/// The same around r, or one step below where r stands on a corner of the angles' lattice that is
-/// singular. False only where S was not semi-definite.
+/// The same with the angles around r, or one step lower if r is at a singular corner of the lattice
+/// of angles. False only if S was not semi-definite.
 [[nodiscard]] HEDDLE_HD inline bool store_correlations(Vec3f r, Vec3f product, PackedSggx& out) {
     return store_angles(r, product, 0, out) || store_angles(r, product, -1, out);
 }
 
-/// sqrt(x) of a diagonal entry, and the byte it is stored as: 1 to 255; NaN gives 1.
+/// Returns sqrt(x) of a diagonal entry and sets the byte that stores it: 1 to 255; NaN gives 1.
 [[nodiscard]] HEDDLE_HD inline float pack_sigma(float square, std::uint8_t& byte) {
     const float sigma = std::sqrt(square > 0.0f ? square : 0.0f);
     const float x = 255.0f * sigma + 0.5f;
@@ -150,8 +150,8 @@ store_angles(Vec3f r, Vec3f product, std::int32_t shift, PackedSggx& out) {
 
 /// True if `p` decodes to a positive definite matrix; exact, for any 6 bytes.
 ///
-/// S = D C D with D = diag(sigma) and C the correlations: no sigma is 0, and C's angles are those of a
-/// triangle on the sphere.
+/// S = D C D with D = diag(sigma) and C the correlations: no sigma is 0, and the angles of C are
+/// those of a triangle on the sphere.
 [[nodiscard]] HEDDLE_HD constexpr bool is_positive_definite(const PackedSggx& p) {
     for (int i = 0; i < 3; ++i) {
         if (p.sigma[i] == 0 || p.r[i] > kAngleSteps) return false;
@@ -160,13 +160,13 @@ store_angles(Vec3f r, Vec3f product, std::int32_t shift, PackedSggx& out) {
                                detail::angle_of(p.r[2]));
 }
 
-/// Packs S into 6 bytes that decode positive definite, whatever S is.
+/// Packs S into 6 bytes that decode to a positive definite matrix, whatever S is.
 ///
 /// sigma_x = sqrt(S_xx), r_xy = S_xy / (sigma_x sigma_y)                      [Fabre26, eq. 17]
-/// sigma is rounded to the nearest byte, 1 or more. A byte of r is an angle, r = -cos(pi byte / 254): the
-/// paper's bytes, even in r, cannot pass 253/255, which widens a needle along a diagonal to .05 and takes
-/// its moment off by .015; these are 150 times finer there. Of the 8 choices of neighbouring angles the
-/// definite one nearest in S is taken; a semi-definite S has one (docs/sggx.md).
+/// sigma is rounded to the nearest byte, at least 1. A byte of r is an angle, r = -cos(pi byte /
+/// 254). The bytes of the paper are linear in r and end at 253/255, which widens a diagonal needle
+/// to 0.05 and changes its moment by 0.015; these are 150 times finer there. Of the 8 choices of
+/// neighbouring angles the definite one nearest to S is taken; a semi-definite S has one.
 ///
 /// @param S  positive semi-definite, diagonal in [0, 1]; anything else is clamped
 [[nodiscard]] HEDDLE_HD inline PackedSggx pack(const SggxMatrix& S) {
@@ -183,10 +183,10 @@ store_angles(Vec3f r, Vec3f product, std::int32_t shift, PackedSggx& out) {
     return p;
 }
 
-/// The matrix that 6 bytes stand for.
+/// The matrix that 6 bytes encode.
 ///
-/// Rounding moved its scale: the distribution integrates to 1 within 1 %. Bytes from outside may
-/// decode to anything: ask is_positive_definite first.
+/// Rounding changes its scale: the distribution integrates to 1 within 1 %. Untrusted bytes may
+/// decode to any matrix: check is_positive_definite first.
 [[nodiscard]] HEDDLE_HD inline SggxMatrix unpack(const PackedSggx& p) {
     const std::int32_t x = p.sigma[0];
     const std::int32_t y = p.sigma[1];

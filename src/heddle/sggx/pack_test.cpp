@@ -11,18 +11,18 @@ namespace {
 
 constexpr long double kPi = 3.14159265358979323846L;
 
-/// Determinant of the correlations from the angles' own half perimeter: 0 on the border, exactly.
+/// Determinant of the correlations from half the sum of the angles: exactly 0 on the border.
 bool definite_by_determinant(const PackedSggx& p) {
     for (int i = 0; i < 3; ++i) {
         if (p.sigma[i] == 0 || p.r[i] > 254) return false;
     }
     const long double a = std::cos(kPi * p.r[0] / 254), b = std::cos(kPi * p.r[1] / 254),
                       c = std::cos(kPi * p.r[2] / 254);
-    // r = -cos: 1 + 2 r r r - ... with the sign of the triple product turned
+    // r = -cos: 1 + 2 r r r - ... with the sign of the triple product reversed
     return a * a < 1 - 1e-12L && 1 - 2 * a * b * c - a * a - b * b - c * c > 1e-10L;
 }
 
-/// What a renderer does with S: Cholesky in float.
+/// As a renderer uses S: Cholesky in float.
 bool has_float_cholesky(const SggxMatrix& S) {
     const float a = std::sqrt(S.xx);
     const float b = S.xy / a;

@@ -11,7 +11,7 @@
 
 namespace heddle {
 
-/// Density of directions, per steradian over the whole sphere.
+/// The density of directions, per steradian over the whole sphere.
 ///
 /// D(w) = 1 / (2 pi sqrt|S| (w^T S^-1 w)^2) = |S|^(3/2) / (2 pi (w^T adj(S) w)^2)
 /// [Heitz15, eq. 10], halved: Heitz's D integrates to 2 with Heddle's scale of S (docs/sggx.md).
@@ -36,13 +36,13 @@ namespace heddle {
     return static_cast<float>(0.15915494309189535 * determinant * std::sqrt(determinant) / (q * q));
 }
 
-/// What sampling needs of one S: columns of a matrix A with A A^T = S, and their lengths.
+/// The part of S that sampling needs: columns of a matrix A with A A^T = S, and their lengths.
 struct SggxFactor {
     Vec3f column[3]{};
     float reach[3]{};
 };
 
-/// Cholesky factor of `S`; columns that rounding made imaginary are 0.
+/// The Cholesky factor of `S`; columns that rounding would make imaginary are 0.
 ///
 /// @param S  positive semi-definite, any scale
 [[nodiscard]] HEDDLE_HD inline SggxFactor factor(const SggxMatrix& S) {
@@ -62,16 +62,16 @@ struct SggxFactor {
     return A;
 }
 
-/// Draws a direction with density ndf(S), over the whole sphere, from S's factor.
+/// Draws a direction with density ndf(S) over the whole sphere, from the factor of S.
 ///
 /// A u / |A u| has density D if u on the sphere has density ~ |A u|; no map of two uniform numbers
-/// gives that in closed form (its integral is elliptic). So u is drawn from the mixture
-/// sum_j reach_j |u_j|, a cosine lobe about each axis, and kept with probability
-/// |A u| / sum_j reach_j |u_j|: 1 / 3 or more, 2 / 3 for a sphere, 1 for a needle. Whole sphere, as
+/// has that density in closed form (its integral is elliptic). So u is drawn from the mixture sum_j
+/// reach_j |u_j|, a cosine lobe about each axis, and accepted with probability |A u| / sum_j
+/// reach_j |u_j|: at least 1 / 3, 2 / 3 for a sphere, 1 for a needle. The whole sphere, as in
 /// [Fabre26, 4.1]; only + - * / sqrt.
 ///
 /// @param A       factor(S)
-/// @param random  with next(): 64 uniform bits; two draws a try
+/// @param random  with next(): 64 uniform bits; two draws per try
 /// @return        unit
 template <typename Random>
 [[nodiscard]] HEDDLE_HD inline Vec3f sample_ndf(const SggxFactor& A, Random& random) {
@@ -84,7 +84,7 @@ template <typename Random>
         const float q = 2.0f * to_unit_float(point << 24) - 1.0f;
         const float rr = p * p + q * q;
         if (rr >= 1.0f) continue;
-        const float height = std::sqrt(1.0f - rr); // the disc, lifted: density ~ height
+        const float height = std::sqrt(1.0f - rr); // the disc, projected up: density ~ height
         const float t = sum * to_unit_float(choice);
         const int axis = t < A.reach[0] ? 0 : t < A.reach[0] + A.reach[1] ? 1 : 2;
         const Vec3f u = axis == 0   ? Vec3f{height, p, q}
@@ -100,9 +100,9 @@ template <typename Random>
     return normalize(A.column[0]); // S = 0
 }
 
-/// Density of the directions that are seen from `wi`, per steradian over the whole sphere.
+/// The density of the normals that are visible from `wi`, per steradian over the whole sphere.
 ///
-/// D_wi(w) = <w . wi> D(w) / (sigma(wi) / 2), <> clamped at 0       [Heitz15]
+/// D_wi(w) = <w . wi> D(w) / (sigma(wi) / 2), where < > clamps at 0       [Heitz15]
 ///
 /// @param S      positive definite, scaled as SymmetricMatrix says
 /// @param wi, w  unit
@@ -111,15 +111,14 @@ template <typename Random>
     return cosine > 0.0f ? 2.0f * cosine * ndf(S, w) / projected_area(S, wi) : 0.0f;
 }
 
-/// Draws a direction with density vndf(S, wi), from S's factor: one draw, nothing rejected.
+/// Draws a direction with density vndf(S, wi), from the factor of S: one draw, no rejection.
 ///
-/// w = A u / |A u| has density D if u has density ~ |A u|; seen from wi, ~ |A u| <w . wi> =
-/// <u . A^T wi>: a cosine lobe about A^T wi. Equal in distribution to
-/// [Heitz15]'s.
+/// w = A u / |A u| has density D if u has density ~ |A u|; seen from wi, ~ |A u| <w . wi> = <u .
+/// A^T wi>: a cosine lobe about A^T wi. It has the distribution of [Heitz15].
 ///
 /// @param A   factor(S)
 /// @param wi  unit
-/// @return    unit, on wi's side
+/// @return    unit, on the side of wi
 template <typename Random>
 [[nodiscard]] HEDDLE_HD inline Vec3f sample_vndf(const SggxFactor& A, Vec3f wi, Random& random) {
     const Vec3f v =
@@ -127,7 +126,7 @@ template <typename Random>
     const Vec3f p = any_perpendicular(v);
     const Vec3f q = cross(v, p);
     const std::uint64_t draw = random.next();
-    const float square = to_unit_float(draw); // of the distance from the lobe's axis
+    const float square = to_unit_float(draw); // square of the distance from the lobe's axis
     const SinCos turn = sincos_turns(static_cast<double>(to_unit_float(draw << 24)));
     const Vec3f u =
         (p * turn.cos + q * turn.sin) * std::sqrt(square) + v * std::sqrt(1.0f - square);

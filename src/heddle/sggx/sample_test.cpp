@@ -19,7 +19,7 @@ int bin_of(Vec3d w) {
     return row * kColumns + std::min(kColumns - 1, static_cast<int>(turn * kColumns));
 }
 
-/// Chi-squared of `observed` against `expected` counts; bins that expect under 5 are pooled.
+/// Chi-squared of `observed` against `expected` counts; bins that expect fewer than 5 are pooled.
 /// @return  in standard deviations above the mean (Wilson and Hilferty)
 double chi_squared_z(const std::vector<double>& observed, const std::vector<double>& expected) {
     double chi = 0.0;
@@ -43,11 +43,11 @@ double chi_squared_z(const std::vector<double>& observed, const std::vector<doub
     return (std::cbrt(chi / degrees) - (1.0 - k)) / std::sqrt(k);
 }
 
-/// Samples that a density per steradian puts into each bin.
+/// The number of samples that a density per steradian puts into each bin.
 template <typename Density>
 std::vector<double> expect_counts(const Density& density, int samples) {
     std::vector<double> expected(kRows * kColumns);
-    constexpr int kFine = 24; // points per bin and axis
+    constexpr int kFine = 24; // points per bin along each axis
     for (int i = 0; i < kRows * kFine; ++i) {
         const double z = (2.0 * i + 1.0) / (kRows * kFine) - 1.0;
         const double r = std::sqrt(1.0 - z * z);

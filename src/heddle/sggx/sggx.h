@@ -9,8 +9,8 @@ namespace heddle {
 
 /// Symmetric 3x3 matrix in world axes, order xx yy zz xy xz yz: an SGGX's S, or a second moment.
 ///
-/// Heddle's S is scaled so that the distribution integrates to 1 over the sphere; then
-/// sqrt(w^T S w) is the mean of |w . d| over its directions d, and at most 1.
+/// Heddle's S is scaled so that the distribution integrates to 1 over the sphere; sqrt(w^T S w) is
+/// then the mean of |w . d| over its directions d, and at most 1.
 struct SymmetricMatrix {
     float xx = 0.0f, yy = 0.0f, zz = 0.0f, xy = 0.0f, xz = 0.0f, yz = 0.0f;
 };

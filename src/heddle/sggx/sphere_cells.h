@@ -9,21 +9,21 @@
 
 namespace heddle {
 
-// Cells of equal area on the sphere, to compare distributions of directions in.
-// HEALPix in ring order [Gorski 2005, "HEALPix"]. Measures only, on the host: libm's atan2 may
-// differ between machines in the last bit, which moves directions on a cell's edge.
+// Cells of equal area on the sphere, for comparing distributions of directions: HEALPix in ring
+// order [Gorski 2005, "HEALPix"]. Only for measuring, on the host: the last bit of libm's atan2 may
+// differ between machines, which moves directions that are on the edge of a cell.
 
 inline constexpr int kSphereCellSide = 8; ///< N_side
 inline constexpr int kSphereCells = 12 * kSphereCellSide * kSphereCellSide;
 
 namespace detail {
 
-/// Cell at height `z`, |z| <= 1, and longitude `quarters` in quarter turns, in [0, 4).
+/// The cell at height `z`, |z| <= 1, and longitude `quarters` in quarter turns, in [0, 4).
 /// @param xx_yy  1 - z^2, precise near the poles
 [[nodiscard]] inline int sphere_cell_at(double z, double xx_yy, double quarters) {
     constexpr int n = kSphereCellSide;
     const double height = std::fabs(z);
-    if (height <= 2.0 / 3.0) { // rows of 4 n squares on edge, each moved by half a square
+    if (height <= 2.0 / 3.0) { // rows of 4 n squares on edge, each shifted by half a square
         const double along = n * (0.5 + quarters);
         const double across = n * 0.75 * z;
         const int rising = static_cast<int>(along - across);
@@ -49,7 +49,7 @@ struct CellPair {
     std::uint16_t opposite = 0;
 };
 
-/// Cells that `d` and -d lie in, 0 .. kSphereCells - 1; from north to south, eastwards.
+/// The cells that contain `d` and -d, 0 .. kSphereCells - 1, from north to south, then eastwards.
 ///
 /// @param d  not 0; any length
 [[nodiscard]] inline CellPair sphere_cells_of(Vec3d d) {
@@ -67,8 +67,8 @@ struct CellPair {
     return {at(z, quarters), at(-z, opposite)};
 }
 
-/// Centres of the 12 side^2 cells of the sphere, in ring order. Those of side = 8 k are k^2 points
-/// inside each cell of sphere_cells_of.
+/// The centres of the 12 side^2 cells of the sphere, in ring order. With side = 8 k there are k^2
+/// centres inside each cell of sphere_cells_of.
 ///
 /// @param side  N_side, >= 1
 [[nodiscard]] inline std::vector<Vec3d> sphere_cell_centers(int side) {

@@ -19,7 +19,7 @@ inline double uniform(CounterRandom& random) {
     return random.uniform();
 }
 
-/// Uniform on the sphere.
+/// A random direction, uniform on the sphere.
 inline Vec3d random_direction(CounterRandom& random) {
     for (;;) {
         const Vec3f p{2.0f * random.uniform() - 1.0f, 2.0f * random.uniform() - 1.0f,
@@ -39,12 +39,12 @@ inline SymmetricMatrix rotate(Vec3d value, CounterRandom& random) {
 inline SggxMatrix random_sggx(Vec3d sigma, CounterRandom& random) {
     const Vec3d square = sigma * sigma;
     const Vec3d m = detail::moment_of_eigenvalues(square);
-    // the fit's own sigma of the longest axis gives the scale: no second formula to go wrong
+    // the scale is the fit's own sigma of the longest axis, not a second formula
     const double scale = static_cast<double>(detail::sigma_of_moment(m).x) / sigma.x;
     return rotate(square * (scale * scale), random);
 }
 
-/// Largest difference of two matrices in any entry.
+/// The largest difference of two matrices in any entry.
 inline double difference(const SymmetricMatrix& a, const SymmetricMatrix& b) {
     const float d[6] = {a.xx - b.xx, a.yy - b.yy, a.zz - b.zz,
                         a.xy - b.xy, a.xz - b.xz, a.yz - b.yz};
@@ -53,7 +53,7 @@ inline double difference(const SymmetricMatrix& a, const SymmetricMatrix& b) {
     return most;
 }
 
-/// Mean of d d^T.
+/// The mean of d d^T.
 inline SymmetricMatrix pool(const std::vector<Vec3d>& directions) {
     double sum[6]{};
     for (const Vec3d& d : directions) {
@@ -67,7 +67,7 @@ inline SymmetricMatrix pool(const std::vector<Vec3d>& directions) {
     return {mean(0), mean(1), mean(2), mean(3), mean(4), mean(5)};
 }
 
-/// Directions evenly around `axis` at polar angle `angle`: a cone; pi / 2 is a ring.
+/// Directions spread evenly around `axis` at polar angle `angle`: a cone; pi / 2 gives a ring.
 inline std::vector<Vec3d> cone(Vec3d axis, double angle, int count) {
     const Vec3d x =
         normalize(cross(axis, std::fabs(axis.x) < 0.9 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0}));
@@ -81,7 +81,7 @@ inline std::vector<Vec3d> cone(Vec3d axis, double angle, int count) {
     return directions;
 }
 
-/// Even over the sphere (Fibonacci).
+/// Directions spread evenly over the sphere (Fibonacci).
 inline std::vector<Vec3d> sphere(int count) {
     std::vector<Vec3d> directions;
     for (int i = 0; i < count; ++i) {

@@ -23,12 +23,12 @@ namespace heddle {
 
 inline constexpr int kHistogramBins = 5; ///< per axis of [-1, 1]^3                [Fabre26, 4.4]
 inline constexpr int kHistogramSize = kHistogramBins * kHistogramBins * kHistogramBins;
-inline constexpr int kLobeSamples = 5000;                     ///< of each lobe      [Fabre26, 4.4]
+inline constexpr int kLobeSamples = 5000; ///< per lobe            [Fabre26, 4.4]
 using DirectionHistogram = std::array<float, kHistogramSize>; ///< shares of samples; x runs fastest
 
 namespace detail {
 
-/// The histogram's bins in the order of their centres' projections on one line.
+/// The bins of the histogram, in the order of the projections of their centres on one line.
 struct HistogramSlice {
     std::array<std::uint8_t, kHistogramSize> bin{};
     std::array<float, kHistogramSize> step{}; ///< from this bin's projection to the next bin's
@@ -57,7 +57,7 @@ struct HistogramSlice {
     static const std::array<HistogramSlice, 13> slices = [] {
         std::array<HistogramSlice, 13> made;
         for (std::size_t i = 0; i < made.size(); ++i) {
-            const int code = static_cast<int>(i) + 14; // of 27 (x, y, z) in -1 .. 1: one per pair
+            const int code = static_cast<int>(i) + 14; // (x, y, z) in -1 .. 1: one per pair
             made[i] =
                 slice_along(normalize(Vec3d{code % 3 - 1.0, code / 3 % 3 - 1.0, code / 9 - 1.0}));
         }
@@ -68,7 +68,7 @@ struct HistogramSlice {
 
 } // namespace detail
 
-/// Shares of `directions` in 5 x 5 x 5 bins over [-1, 1]^3.                     [Fabre26, 4.4]
+/// The share of `directions` in each of 5 x 5 x 5 bins over [-1, 1]^3.               [Fabre26, 4.4]
 /// @param directions  unit; at least one
 [[nodiscard]] inline DirectionHistogram direction_histogram(std::span<const Vec3f> directions) {
     constexpr int n = kHistogramBins;
@@ -85,11 +85,11 @@ struct HistogramSlice {
 
 /// Sliced Wasserstein-1 distance of two histograms.
 ///
-/// The paper says "Wasserstein distance" and no more. This is the mean over 13 lines, the symmetry
-/// axes of the cube, of the distance in one dimension: the integral of |difference of cumulated
-/// shares| of the bins' centres projected on the line. It compares places in
-/// space, whatever the order of bins.
-/// @return  >= 0, 0 for equal histograms; mass that moves by one bin along an axis: .22
+/// The paper says "Wasserstein distance" and no more. This is the mean of the one-dimensional
+/// distance over 13 lines, the symmetry axes of the cube: the integral of |difference of cumulated
+/// shares|, with the centres of the bins projected on the line. It compares positions in space,
+/// independent of the order of bins.
+/// @return  >= 0, 0 for equal histograms; 0.22 for mass that moves by one bin along an axis
 [[nodiscard]] inline float sliced_wasserstein(const DirectionHistogram& a,
                                               const DirectionHistogram& b) {
     float sum = 0.0f;
@@ -106,12 +106,12 @@ struct HistogramSlice {
 /// Lobes for agglomerate() by the method `wasserstein`.                         [Fabre26, 4.4]
 ///
 /// Each lobe is 5,000 samples of its SGGX; the distance is sliced_wasserstein of their histograms
-/// and knows no weights, as in the paper. Merging joins the samples, each side's in proportion to its
-/// weight, 5,000 together; their second moment is the merged lobe's, which is then sampled anew.
+/// and, as in the paper, ignores weights. A merged lobe takes samples of both in proportion to
+/// their weights, 5,000 together; it is fitted to their second moment and sampled anew.
 class WassersteinLobes {
 public:
     /// @param lobes  weights > 0; merged in place
-    /// @param seed   of all samples: same seed, same bits
+    /// @param seed   seed of all samples: the same seed gives the same bits
     WassersteinLobes(std::span<DirectionSums> lobes, std::uint64_t seed)
         : lobes_(lobes), seed_(seed), drawn_(lobes.size()) {
         for (std::size_t i = 0; i < lobes.size(); ++i) drawn_[i] = draw(lobes[i]);
@@ -152,8 +152,8 @@ private:
         std::vector<Vec3f> samples;
         DirectionHistogram histogram{};
     };
-    /// Samples of the SGGX fitted to `sums`: a stream for each set of sums, so that the order of
-    /// calls does not matter.
+    /// Samples the SGGX that is fitted to `sums`, with a random stream for each set of sums, so
+    /// that the order of calls does not matter.
     [[nodiscard]] Drawn draw(const DirectionSums& sums) const {
         std::uint64_t id = static_cast<std::uint64_t>(sums.weight);
         for (const std::int64_t m : sums.moment) id = hash64(id, static_cast<std::uint64_t>(m));
@@ -181,19 +181,5 @@ private:
     std::uint64_t seed_;
     std::vector<Drawn> drawn_;
 };
-
-/// Reduces pooled lobes to at most `keep` by the method `wasserstein`; as reduce_lobes.
-///
-/// About 15 ms for 24 lobes.
-/// @param seed  of the samples
-inline int reduce_lobes_by_wasserstein(std::span<DirectionSums> lobes,
-                                       int keep,
-                                       std::uint64_t seed,
-                                       LobeMerge* merges) {
-    const int count = static_cast<int>(lobes.size());
-    if (count <= keep) return count;
-    WassersteinLobes policy(lobes, seed);
-    return compact_lobes(lobes, merges, agglomerate(count, keep, policy, merges));
-}
 
 } // namespace heddle

@@ -1,6 +1,7 @@
 #include <heddle/sggx/wasserstein.h>
 
 #include <heddle/sggx/test_lobe.h>
+#include <heddle/sggx/test_reduce.h>
 
 #include <gtest/gtest.h>
 
@@ -24,7 +25,7 @@ DirectionHistogram all_in(int x, int y, int z) {
 }
 
 TEST(SlicedWasserstein, MovedMassCostsItsMeanProjectedWay) {
-    // by one bin (.4) along x: lines along x 1, face diagonals 4 of 6 with 1/sqrt 2, body 1/sqrt 3
+    // one bin (0.4) along x: lines along x 1, face diagonals 4 of 6 with 1/sqrt 2, body 1/sqrt 3
     const double mean = (1.0 + 4.0 / std::sqrt(2.0) + 4.0 / std::sqrt(3.0)) / 13.0;
     const DirectionHistogram start = all_in(2, 2, 2);
     EXPECT_NEAR(sliced_wasserstein(start, all_in(3, 2, 2)), 0.4 * mean, 1e-6);
@@ -47,7 +48,7 @@ TEST(WassersteinLobes, ParallelNeedlesMergeFirstAndCrossedOnesStay) {
     std::vector<DirectionSums> pool{needle({1, 0, 0}, 1), needle({0, 1, 0}, 2),
                                     needle({1, .05, 0}, 3), needle({.05, 1, 0}, 1)};
     LobeMerge merges[4];
-    ASSERT_EQ(reduce_lobes_by_wasserstein(pool, 2, 7, merges), 2);
+    ASSERT_EQ(test::reduce_lobes_by_wasserstein(pool, 2, 7, merges), 2);
     EXPECT_EQ(pool[0].weight, 4000000);
     EXPECT_EQ(pool[1].weight, 3000000);
     EXPECT_GT(pool[0].moment[0], 3900000);
@@ -70,7 +71,8 @@ TEST(WassersteinLobes, TheSameSeedGivesTheSameBitsAndAnotherDoesNot) {
         CounterRandom random{5, 1};
         for (int i = 0; i < 6; ++i) pool.push_back(needle(test::random_direction(random), 1.0 + i));
         LobeMerge merges[6];
-        pool.resize(static_cast<std::size_t>(reduce_lobes_by_wasserstein(pool, 3, seed, merges)));
+        pool.resize(
+            static_cast<std::size_t>(test::reduce_lobes_by_wasserstein(pool, 3, seed, merges)));
         return pool;
     };
     EXPECT_EQ(run(1), run(1));
@@ -82,7 +84,7 @@ TEST(WassersteinLobes, MaterialsAndKindsMergeLast) {
                                     needle({0, 1, 0}, 1, 1)};
     pool[1].normals = true;
     LobeMerge merges[3];
-    ASSERT_EQ(reduce_lobes_by_wasserstein(pool, 1, 7, merges), 1);
+    ASSERT_EQ(test::reduce_lobes_by_wasserstein(pool, 1, 7, merges), 1);
     EXPECT_EQ(merges[0].into, 0);
     EXPECT_EQ(merges[0].from, 2);
     EXPECT_EQ(pool[0].weight, 4000000);

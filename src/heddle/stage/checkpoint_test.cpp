@@ -63,7 +63,7 @@ TEST(Checkpoint, CutAtAnyByteItIsRefused) {
     const std::string path = folder.file("a.checkpoint");
     write_checkpoint(path, kScene, small_picture());
     const std::string whole = slurp(path);
-    for (std::size_t n = 0; n < whole.size(); n += n < 64 ? 1 : 37) {
+    for (std::size_t n = 0; n < whole.size(); ++n) {
         EXPECT_NE(refused(folder.write("cut", whole.substr(0, n))), "") << n;
     }
     EXPECT_NE(refused(folder.write("long", whole + "x")), "");

@@ -1,6 +1,7 @@
 #include <heddle/stage/load_lights.h>
 
 #include <heddle/base/error.h>
+#include <heddle/geom/color.h>
 #include <heddle/io/exr/exr.h>
 #include <heddle/io/file/input_file.h>
 #include <heddle/io/image/image.h>
@@ -10,11 +11,6 @@
 
 namespace heddle {
 namespace {
-
-float decode_srgb(std::uint8_t byte) {
-    const float s = static_cast<float>(byte) / 255.0f;
-    return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
-}
 
 std::shared_ptr<EnvironmentMap> read_map(const std::string& path) {
     auto map = std::make_shared<EnvironmentMap>();
@@ -32,9 +28,9 @@ std::shared_ptr<EnvironmentMap> read_map(const std::string& path) {
         const auto channels = static_cast<std::size_t>(image.channels);
         const std::size_t color = channels < 3 ? 0 : 1; // grey repeats its one
         for (std::size_t i = 0; i < image.texels.size(); i += channels) {
-            map->radiance.push_back({decode_srgb(image.texels[i]),
-                                     decode_srgb(image.texels[i + color]),
-                                     decode_srgb(image.texels[i + 2 * color])});
+            map->radiance.push_back({linear_from_srgb_byte<float>(image.texels[i]),
+                                     linear_from_srgb_byte<float>(image.texels[i + color]),
+                                     linear_from_srgb_byte<float>(image.texels[i + 2 * color])});
         }
     }
     if (map->width != 2 * map->height) {

@@ -38,8 +38,6 @@ public:
     [[nodiscard]] const CameraView& view() const { return view_; }
     [[nodiscard]] Bounds bounds() const;
     [[nodiscard]] std::int64_t byte_count() const; ///< of levels and geometry
-    /// Names of PathScene::materials.
-    [[nodiscard]] const std::vector<std::string>& material_names() const { return names_; }
 
 private:
     /// A .vdb and where it stands.

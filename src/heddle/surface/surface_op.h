@@ -3,9 +3,9 @@
 #include <heddle/base/platform.h>
 #include <heddle/base/random.h>
 #include <heddle/base/vec.h>
+#include <heddle/surface/surface_frame.h>
 #include <heddle/surface/surface_view.h>
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -48,10 +48,10 @@ struct TriangleSetup {
     bool textured = false; ///< `uv` holds
     /// neighbouring hits of a row that one sample, at their middle, stands for
     std::int32_t run = 1;
-    std::array<Vec3f, 3> normals{};
-    std::array<Vec3f, 3> tangents{};
+    Corners<Vec3f> normals{};
+    Corners<Vec3f> tangents{};
     float handedness = 1.0f; ///< bitangent = handedness x cross(normal, tangent)
-    std::array<Uv, 3> uv{};
+    Corners<Uv> uv{};
     float footprint_uv = 0.0f; ///< square root of the uv area that a sample stands for
     float albedo_level = 0.0f;
     float metal_rough_level = 0.0f;
@@ -90,28 +90,15 @@ HEDDLE_HD inline void set_texture(const SurfaceView& view, double area, Triangle
 }
 
 HEDDLE_HD inline void set_tangents(const MeshView& mesh, std::uint64_t triangle, TriangleSetup& t) {
-    const std::array<std::uint32_t, 3> corner = mesh.triangles[triangle];
     if (mesh.tangents != nullptr) {
-        for (std::size_t n = 0; n < 3; ++n) {
-            const Tangent& v = mesh.tangents[corner[n]];
-            t.tangents[n] = {v.x, v.y, v.z};
-        }
-        t.handedness = mesh.tangents[corner[0]].w < 0.0f ? -1.0f : 1.0f;
+        const CornerTangents given = corner_tangents(mesh, triangle);
+        t.tangents = given.direction;
+        t.handedness = given.handedness;
         return;
     }
-    // Without vertex tangents: the direction in which u grows on the triangle.
-    const Vec3f d1 = mesh.positions[corner[1]] - mesh.positions[corner[0]];
-    const Vec3f d2 = mesh.positions[corner[2]] - mesh.positions[corner[0]];
-    const float u1 = t.uv[1].u - t.uv[0].u, v1 = t.uv[1].v - t.uv[0].v;
-    const float u2 = t.uv[2].u - t.uv[0].u, v2 = t.uv[2].v - t.uv[0].v;
-    const float sign = u1 * v2 - u2 * v1 < 0.0f ? -1.0f : 1.0f;
-    const Vec3f along = normalize((d1 * v2 - d2 * v1) * sign, any_perpendicular(t.face_normal));
-    t.tangents = {along, along, along};
-    t.handedness = sign;
-}
-
-HEDDLE_HD inline Vec3f interpolate(const std::array<Vec3f, 3>& v, const SurfaceHit& h) {
-    return v[0] * h.b0 + v[1] * h.b1 + v[2] * h.b2;
+    const SurfaceDirection along = direction_of_u(mesh, triangle, t.uv, t.face_normal);
+    t.tangents = {along.direction, along.direction, along.direction};
+    t.handedness = along.handedness;
 }
 
 HEDDLE_HD inline std::uint64_t
@@ -145,30 +132,20 @@ HEDDLE_HD inline void set_frame(std::uint64_t seed,
                                 bool mapped_normal,
                                 SurfaceSample& s) {
     const SurfaceMaps& m = *t.maps;
-    const Vec3f n = s.normal;
-    const Vec3f along = interpolate(t.tangents, hit);
-    const Vec3f tangent = normalize(along - n * dot(n, along), any_perpendicular(n));
-    const Vec3f bitangent = cross(n, tangent) * t.handedness;
+    const SurfaceFrame f =
+        frame_of(s.normal, {interpolate(t.tangents, hit.b0, hit.b1, hit.b2), t.handedness});
     if (mapped_normal && t.textured && m.normal != nullptr) {
-        const Rgba v =
-            m.normal->at_point(point_in_footprint(seed, t, hit, uv, m.normal->texels_per_uv));
-        const float scale = m.normal_scale;
-        s.normal =
-            normalize(tangent * ((2.0f * v.r - 1.0f) * scale) +
-                          bitangent * ((2.0f * v.g - 1.0f) * scale) + n * (2.0f * v.b - 1.0f),
-                      n);
+        const Uv point = point_in_footprint(seed, t, hit, uv, m.normal->texels_per_uv);
+        s.normal = normal_from_map(f, m, m.normal->at_point(point));
     }
     if (!m.anisotropic) return;
-    float x = 1.0f, y = 0.0f;
+    FrameDirection d;
     if (t.textured && m.anisotropy != nullptr) {
         s.anisotropy = m.anisotropy->filtered(uv, t.anisotropy_level).b;
-        const Rgba v = m.anisotropy->at_point(
-            point_in_footprint(seed, t, hit, uv, m.anisotropy->texels_per_uv));
-        x = 2.0f * v.r - 1.0f;
-        y = 2.0f * v.g - 1.0f;
+        d = direction_in_frame(m.anisotropy->at_point(
+            point_in_footprint(seed, t, hit, uv, m.anisotropy->texels_per_uv)));
     }
-    const Vec3f direction = tangent * (x * m.rotation_cos - y * m.rotation_sin) +
-                            bitangent * (x * m.rotation_sin + y * m.rotation_cos);
+    const Vec3f direction = turned_direction(f, m, d.x, d.y);
     s.tangent =
         normalize(direction - s.normal * dot(s.normal, direction), any_perpendicular(s.normal));
 }
@@ -182,16 +159,12 @@ HEDDLE_HD inline SurfaceSample shade(std::uint64_t seed,
     SurfaceSample s;
     s.normal = normal;
     Uv uv;
-    if (t.textured)
-        uv = {t.uv[0].u * hit.b0 + t.uv[1].u * hit.b1 + t.uv[2].u * hit.b2,
-              t.uv[0].v * hit.b0 + t.uv[1].v * hit.b1 + t.uv[2].v * hit.b2};
+    if (t.textured) uv = interpolate(t.uv, hit.b0, hit.b1, hit.b2);
     Rgba colour;
     const bool mapped = t.textured && m.albedo != nullptr;
     if (mapped) colour = m.albedo->filtered(uv, t.albedo_level);
     s.albedo = {colour.r, colour.g, colour.b};
-    if (m.alpha_mode == AlphaMode::Blend) s.covered = covers(seed, hit, colour.a * m.alpha);
-    if (m.alpha_mode == AlphaMode::Mask)
-        s.covered = mapped ? covers(seed, hit, colour.a) : m.alpha >= m.alpha_cutoff;
+    s.covered = covers(seed, hit, coverage_of(m, mapped, colour.a));
     if (!s.covered) return s;
     if (t.textured && m.metal_rough != nullptr) {
         const Rgba value = m.metal_rough->filtered(uv, t.metal_rough_level);
@@ -208,12 +181,11 @@ HEDDLE_HD inline SurfaceSample shade(std::uint64_t seed,
 /// @param triangle  of the mesh
 [[nodiscard]] HEDDLE_HD inline TriangleSetup
 set_up_triangle(const SurfaceView& view, const MeshView& mesh, std::uint64_t triangle) {
-    const std::array<std::uint32_t, 3> corner = mesh.triangles[triangle];
+    const Corners<std::uint32_t> corner = mesh.triangles[triangle];
     const std::uint32_t a = corner[0], b = corner[1], c = corner[2];
     TriangleSetup t;
     t.maps = &view.materials[mesh.material];
-    const Vec3d p = to_double(mesh.positions[a]);
-    const Vec3d twice = cross(to_double(mesh.positions[b]) - p, to_double(mesh.positions[c]) - p);
+    const Vec3d twice = doubled_area(mesh, triangle);
     t.normal = normalize(twice);
     t.face_normal = to_float(t.normal);
     if (mesh.normals != nullptr) {
@@ -237,7 +209,8 @@ set_up_triangle(const SurfaceView& view, const MeshView& mesh, std::uint64_t tri
 sample_at(std::uint64_t seed, const TriangleSetup& t, const SurfaceHit& hit) {
     using namespace surface_detail;
     const Vec3f normal =
-        t.smooth ? normalize(interpolate(t.normals, hit), t.face_normal) : t.face_normal;
+        t.smooth ? normalize(interpolate(t.normals, hit.b0, hit.b1, hit.b2), t.face_normal)
+                 : t.face_normal;
     return shade(seed, t, hit, normal, true);
 }
 

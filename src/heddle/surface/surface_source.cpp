@@ -14,27 +14,6 @@ namespace {
 /// them at each, and still 16 samples a voxel and axis.
 constexpr int kMostRun = 4;
 
-bool moves(const Material& m) {
-    return m.height_scale != 0.0f || m.height_offset != 0.0f;
-}
-
-// The alpha of the texture at which the product with the material's alpha reaches the cut-off.
-float mask_threshold(const Material& m) {
-    if (m.alpha_cutoff <= 0.0f) return 0.0f;
-    return m.alpha > 0.0f ? m.alpha_cutoff / m.alpha : 2.0f;
-}
-
-TexelWeight albedo_weight(const Material& m) {
-    return m.alpha_mode == AlphaMode::Opaque ? TexelWeight::One
-           : m.alpha_mode == AlphaMode::Mask ? TexelWeight::Mask
-                                             : TexelWeight::Alpha;
-}
-
-template <typename T>
-const T* data_or_null(const std::vector<T>& v) {
-    return v.empty() ? nullptr : v.data();
-}
-
 // Level of the height map at the mean footprint of the mesh's hits.
 float height_level(const Mesh& mesh, const TextureView& map, Vec3d subvoxel_size) {
     double world = 0.0, in_uv = 0.0;
@@ -57,14 +36,7 @@ SurfaceSource::SurfaceSource(const Geometry& geometry,
                              Vec3d subvoxel_size,
                              std::uint64_t seed,
                              std::int32_t run)
-    : geometry_(geometry), first_(1, 0) {
-    for (const Mesh& mesh : geometry.meshes)
-        if (mesh.material >= geometry.materials.size())
-            throw Error(
-                ErrorCode::InvalidArgument,
-                str("a mesh names material ", mesh.material, " of ", geometry.materials.size()),
-                "give every mesh a material of the geometry");
-    for (const Material& m : geometry.materials) maps_.push_back(make_maps(m));
+    : geometry_(geometry), maps_(geometry, MapReading::Footprint), first_(1, 0) {
     view_.seed = seed;
     view_.subvoxel_size = subvoxel_size;
     view_.run = run;
@@ -72,10 +44,10 @@ SurfaceSource::SurfaceSource(const Geometry& geometry,
     for (const Mesh& mesh : geometry.meshes) add_mesh(mesh);
     view_.meshes = meshes_.data();
     view_.first_triangle = first_.data();
-    view_.materials = maps_.data();
+    view_.materials = maps_.materials().data();
     view_.mesh_count = meshes_.size();
     view_.triangle_count = first_.back();
-    view_.material_count = static_cast<std::uint32_t>(maps_.size());
+    view_.material_count = static_cast<std::uint32_t>(maps_.materials().size());
 }
 
 SurfaceSource::SurfaceSource(const Geometry& geometry,
@@ -85,15 +57,8 @@ SurfaceSource::SurfaceSource(const Geometry& geometry,
           geometry, units.voxel_size * (1.0 / units.n), seed, std::min(units.n, kMostRun)) {}
 
 void SurfaceSource::add_mesh(const Mesh& mesh) {
-    const SurfaceMaps& m = maps_[mesh.material];
-    MeshView view;
-    view.positions = mesh.positions.data();
-    view.normals = data_or_null(mesh.normals);
-    view.tangents = data_or_null(mesh.tangents);
-    view.uvs = data_or_null(mesh.uvs);
-    view.triangles = mesh.triangles.data();
-    view.vertex_count = mesh.positions.size();
-    view.material = mesh.material;
+    const SurfaceMaps& m = maps_.of(mesh);
+    MeshView view = mesh_view(mesh);
     const bool displaced = m.height != nullptr && !mesh.uvs.empty();
     const bool mapped = m.albedo != nullptr || m.normal != nullptr || m.metal_rough != nullptr;
     const bool shaded = !mesh.normals.empty() || m.anisotropic || (mapped && !mesh.uvs.empty()) ||
@@ -110,50 +75,6 @@ void SurfaceSource::add_mesh(const Mesh& mesh) {
     }
     meshes_.push_back(view);
     first_.push_back(first_.back() + mesh.triangles.size());
-}
-
-const TextureView*
-SurfaceSource::stored(std::int32_t texture, TexelWeight weight, float threshold, bool levels) {
-    if (texture < 0) return nullptr;
-    if (static_cast<std::size_t>(texture) >= geometry_.textures.size())
-        throw Error(ErrorCode::InvalidArgument,
-                    str("a material names texture ", texture, " of ", geometry_.textures.size()),
-                    "drop the map or add the texture");
-    for (const Stored& s : stored_)
-        if (s.texture == texture && s.weight == weight && s.threshold == threshold &&
-            s.levels == levels)
-            return &s.filtered->view();
-    const Texture& t = geometry_.textures[static_cast<std::size_t>(texture)];
-    stored_.push_back({texture, weight, threshold, levels,
-                       std::make_unique<FilteredTexture>(t, weight, threshold, levels)});
-    return &stored_.back().filtered->view();
-}
-
-SurfaceMaps SurfaceSource::make_maps(const Material& m) {
-    SurfaceMaps maps;
-    maps.anisotropic = m.kind == MaterialKind::Surface && m.anisotropy > 0.0f;
-    maps.rotation_cos = std::cos(m.anisotropy_rotation);
-    maps.rotation_sin = std::sin(m.anisotropy_rotation);
-    maps.alpha = m.alpha;
-    maps.alpha_cutoff = m.alpha_cutoff;
-    maps.alpha_mode = m.alpha_mode;
-    maps.normal_scale = m.normal_scale;
-    maps.height_scale = m.height_scale;
-    maps.height_offset = m.height_offset;
-    const TexelWeight weight = albedo_weight(m);
-    const float threshold = weight == TexelWeight::Mask ? mask_threshold(m) : 0.0f;
-    maps.albedo = stored(m.albedo_map, weight, threshold, true);
-    maps.normal = stored(m.normal_map, TexelWeight::One, 0.0f, false);
-    maps.metal_rough = stored(m.metal_rough_map, TexelWeight::One, 0.0f, true);
-    if (maps.anisotropic) maps.anisotropy = stored(m.anisotropy_map, TexelWeight::One, 0.0f, true);
-    if (moves(m)) maps.height = stored(m.height_map, TexelWeight::One, 0.0f, true);
-    return maps;
-}
-
-std::int64_t SurfaceSource::bytes() const {
-    std::int64_t sum = 0;
-    for (const Stored& s : stored_) sum += s.filtered->bytes();
-    return sum;
 }
 
 std::int64_t SurfaceSource::predict_bytes(const Geometry& geometry) {

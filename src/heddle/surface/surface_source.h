@@ -1,13 +1,12 @@
 #pragma once
 
 #include <heddle/geom/geometry.h>
+#include <heddle/surface/surface_maps.h>
 #include <heddle/surface/surface_op.h>
-#include <heddle/surface/texture_filter.h>
 #include <heddle/voxel/lattice_units.h>
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 namespace heddle {
@@ -41,33 +40,19 @@ public:
     }
     [[nodiscard]] const Geometry& geometry() const { return geometry_; }
     /// Its averaged textures, in the order in which the views of textures lie.
-    [[nodiscard]] std::size_t texture_count() const { return stored_.size(); }
-    [[nodiscard]] const FilteredTexture& texture(std::size_t i) const {
-        return *stored_[i].filtered;
-    }
+    [[nodiscard]] std::size_t texture_count() const { return maps_.texture_count(); }
+    [[nodiscard]] const FilteredTexture& texture(std::size_t i) const { return maps_.texture(i); }
 
     /// Memory that the averaged textures take, in bytes.
-    [[nodiscard]] std::int64_t bytes() const;
+    [[nodiscard]] std::int64_t bytes() const { return maps_.bytes(); }
     /// Upper bound of the bytes that it takes, before anything is built.
     [[nodiscard]] static std::int64_t predict_bytes(const Geometry& geometry);
 
 private:
-    struct Stored {
-        std::int32_t texture;
-        TexelWeight weight;
-        float threshold;
-        bool levels;
-        std::unique_ptr<FilteredTexture> filtered;
-    };
-
-    const TextureView*
-    stored(std::int32_t texture, TexelWeight weight, float threshold, bool levels);
-    SurfaceMaps make_maps(const Material& material);
     void add_mesh(const Mesh& mesh);
 
     const Geometry& geometry_;
-    std::vector<Stored> stored_;
-    std::vector<SurfaceMaps> maps_;           ///< per material
+    GeometryMaps maps_;
     std::vector<std::vector<Vec3f>> normals_; ///< per mesh; empty unless displaced without its own
     std::vector<MeshView> meshes_;
     std::vector<std::uint64_t> first_;

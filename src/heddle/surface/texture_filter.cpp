@@ -2,6 +2,7 @@
 
 #include <heddle/base/error.h>
 #include <heddle/base/parallel.h>
+#include <heddle/geom/color.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,12 +12,11 @@ namespace heddle {
 namespace {
 
 // 16-bit linear value of a colour byte. Rounded to integers, so that the last bit of pow, which
-// differs between C libraries, does not show.                                  [IEC 61966-2-1]
+// differs between C libraries, does not show.
 std::uint16_t linear_from_byte(int byte, bool srgb) {
     if (!srgb) return static_cast<std::uint16_t>(byte * 257);
-    const double c = byte / 255.0;
-    const double l = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-    return static_cast<std::uint16_t>(std::lround(l * 65535.0));
+    const double linear = linear_from_srgb_byte<double>(static_cast<std::uint8_t>(byte));
+    return static_cast<std::uint16_t>(std::lround(linear * 65535.0));
 }
 
 void check_texture(const Texture& t) {

@@ -18,7 +18,7 @@ namespace heddle {
 class FilteredTexture {
 public:
     /// @param threshold  in texture alpha, above 1 nothing is covered; used by TexelWeight::Mask
-    /// @param levels     build the coarser levels; false: `filtered` is not to be called
+    /// @param levels     build the coarser levels; false: `filtered` reads the finest at any level
     /// @throws Error     InvalidArgument: no texels, channels not in 1 to 4, or an array that is
     ///                   shorter than width x height x channels
     FilteredTexture(const Texture& texture, TexelWeight weight, float threshold, bool levels);
@@ -37,8 +37,6 @@ public:
     /// Least and greatest red value: a height map's range.
     [[nodiscard]] std::array<float, 2> red_range() const;
 
-    /// Bytes of the image.
-    [[nodiscard]] std::size_t image_bytes() const { return texture_->texels.size(); }
     /// Memory of the levels that were built, in bytes.
     [[nodiscard]] std::int64_t bytes() const;
     /// What `bytes` will give for a texture of this size.

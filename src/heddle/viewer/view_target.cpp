@@ -85,7 +85,7 @@ ViewImage ViewTarget::image() const {
     for (std::size_t i = 0; i < width * height; ++i) {
         const float* from = &rgba[4 * ((height - 1 - i / width) * width + i % width)];
         for (std::size_t c = 0; c < 3; ++c)
-            out.rgb[3 * i + c] = encode_srgb(static_cast<double>(from[c] + 1.0f - from[3]));
+            out.rgb[3 * i + c] = srgb_byte(static_cast<double>(from[c] + 1.0f - from[3]));
     }
     return out;
 }

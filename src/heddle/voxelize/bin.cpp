@@ -29,9 +29,10 @@ void Bins::visit_pairs(const Progress& progress, const Visit& visit) const {
         for (std::size_t span = begin; span < end; ++span) {
             const FiberPiece whole = fibers.whole_span(span);
             for (std::uint32_t part = 0; part < whole.parts; ++part) {
-                for_each_block(fibers, part_of(whole, part), range_, [&](int x, int y, int z) {
-                    visit(range_.number({x, y, z}), span << 16 | part);
-                });
+                for_each_block(fibers, part_of(whole, part), units_, range_,
+                               [&](int x, int y, int z) {
+                                   visit(range_.number({x, y, z}), pack_piece(span, part));
+                               });
             }
         }
     });
@@ -42,9 +43,9 @@ void Bins::visit_pairs(const Progress& progress, const Visit& visit) const {
             const Mesh& mesh = triangles_.geometry().meshes[at.mesh];
             const auto [a, b, c] = mesh.triangles[at.triangle];
             const Vec3f corners[3] = {mesh.positions[a], mesh.positions[b], mesh.positions[c]};
-            for_each_block(corners, triangles_.displacement(at.mesh), fibers.units, range_,
+            for_each_block(corners, triangles_.displacement(at.mesh), units_, range_,
                            [&](int x, int y, int z) {
-                               visit(range_.number({x, y, z}), t | kTriangleBit);
+                               visit(range_.number({x, y, z}), pack_triangle(t));
                            });
         }
     });
@@ -52,9 +53,14 @@ void Bins::visit_pairs(const Progress& progress, const Visit& visit) const {
 
 Bins::Bins(const FiberSource& fibers,
            const TriangleSource& triangles,
+           const LatticeUnits& units,
            const BlockRange& range,
            const Progress& progress)
-    : fibers_(fibers), triangles_(triangles), range_(range), counts_(range.count(), 0) {
+    : fibers_(fibers),
+      triangles_(triangles),
+      units_(units),
+      range_(range),
+      counts_(range.count(), 0) {
     visit_pairs(progress, [&](std::uint64_t block, Primitive) {
         std::atomic_ref(counts_[block]).fetch_add(1, std::memory_order_relaxed);
     });

@@ -35,9 +35,10 @@ private:
 /// Which primitives touch which block. Built once as counts, then filled batch by batch.
 class Bins {
 public:
-    /// Counts. @throws Error  Cancelled
+    /// Counts; what it is made of must outlive it. @throws Error  Cancelled
     Bins(const FiberSource& fibers,
          const TriangleSource& triangles,
+         const LatticeUnits& units,
          const BlockRange& range,
          const Progress& progress);
 
@@ -66,6 +67,7 @@ private:
 
     const FiberSource& fibers_;
     const TriangleSource& triangles_;
+    const LatticeUnits& units_;
     BlockRange range_;
     std::vector<std::uint32_t> counts_; ///< per block of the range
     std::vector<std::uint32_t> blocks_;

@@ -15,13 +15,14 @@ namespace heddle {
 template <typename Visit>
 HEDDLE_HD inline void for_each_block(const FiberView& fibers,
                                      const FiberPiece& piece,
+                                     const LatticeUnits& units,
                                      const BlockRange& range,
                                      const Visit& visit) {
     Bounds box = piece.cubic.hull();
     const double reach = fibers.reach(piece);
     box.lo = box.lo - Vec3d{reach, reach, reach};
     box.hi = box.hi + Vec3d{reach, reach, reach};
-    const BlockBox blocks = blocks_of(box, range, fibers.units.voxel_size);
+    const BlockBox blocks = blocks_of(box, range, units.voxel_size);
     for (int x = blocks.lo.x; x <= blocks.hi.x; ++x) {
         for (int y = blocks.lo.y; y <= blocks.hi.y; ++y) {
             for (int z = blocks.lo.z; z <= blocks.hi.z; ++z) visit(x, y, z);

@@ -24,40 +24,38 @@ VoxelGridFields fields_of(const Geometry& geometry) {
 
 } // namespace
 
-VoxelizeContext::VoxelizeContext(const Geometry& geometry_in,
+VoxelizeContext::VoxelizeContext(const PreparedGeometry& prepared_in,
                                  const VoxelizeOptions& options_in,
-                                 const Lattice& lattice_in,
-                                 Vec3i voxel_lo,
-                                 Vec3i voxel_hi)
-    : geometry(geometry_in),
+                                 bool with_sums)
+    : prepared(prepared_in),
       options(options_in),
-      units(lattice_in),
-      fibers(geometry_in, units, options_in.seed),
-      triangles(geometry_in),
-      surfaces(geometry_in, units, options_in.seed),
-      lattice(lattice_in),
-      range(voxel_lo, voxel_hi),
-      fit{.subvoxels = lattice.subvoxels,
+      fit{.subvoxels = prepared_in.lattice.subvoxels,
           .max_lobes = options_in.max_lobes,
           .project_subvoxels = options_in.coverage == CoverageMode::Mask,
-          .fields = fields_of(geometry_in)} {
-    fit.fields.masks = options_in.keep_sums;
+          .fields = fields_of(prepared_in.geometry)} {
+    fit.fields.masks = options_in.keep_sums || with_sums;
     fit.fields.footprints = options_in.footprints;
     fit.fields.correlation = options_in.correlation;
-    for (std::size_t m = 0; m < geometry_in.materials.size(); ++m) {
-        fit.normals[m] = geometry_in.materials[m].kind == MaterialKind::Surface;
+    for (std::uint32_t m = 0; m < prepared.geometry.materials.size(); ++m) {
+        if (prepared.geometry.materials[m].kind == MaterialKind::Surface) fit.normals.add(m);
     }
 }
 
+VoxelGridFields VoxelizeContext::fields() const {
+    VoxelGridFields of_result = fit.fields;
+    of_result.masks = options.keep_sums;
+    return of_result;
+}
+
 VoxelGridInfo VoxelizeContext::info() const {
+    const Geometry& geometry = prepared.geometry;
     VoxelGridInfo info{.name = geometry.name,
-                       .lattice = lattice,
+                       .lattice = prepared.lattice,
                        .max_lobes = options.max_lobes,
-                       .fields = fit.fields,
+                       .fields = fields(),
                        .materials = geometry.materials,
                        .yarns = geometry.yarns,
                        .command = options.command};
-    info.fields.masks = options.keep_sums;
     for (YarnType& yarn : info.yarns) yarn.slice.texels.clear();
     for (std::size_t m = 0; m < info.materials.size(); ++m) {
         info.materials[m].fiber_radius = mean_fiber_radius(geometry, static_cast<std::uint32_t>(m));
@@ -68,8 +66,8 @@ VoxelGridInfo VoxelizeContext::info() const {
 BlockWorker::BlockWorker(const VoxelizeContext& context)
     : context_(context),
       sums_(context.fit.fields.map_sums()),
-      fibers_(context.fibers, context.options.gather()),
-      triangles_(context.surfaces, context.units, context.options.fit) {}
+      fibers_(context.prepared.fibers, context.prepared.units, context.options.gather()),
+      triangles_(context.prepared.surfaces, context.prepared.units, context.options.fit) {}
 
 BlockCounts BlockWorker::run(std::uint64_t block,
                              std::span<const Primitive> primitives,
@@ -77,7 +75,7 @@ BlockCounts BlockWorker::run(std::uint64_t block,
                              VoxelBlock& out) {
     Vec3i lo;
     Vec3i hi;
-    context_.range.voxels(block, lo, hi);
+    context_.prepared.range.voxels(block, lo, hi);
     sums_.reset(lo, hi);
     // sorted: fiber pieces first, triangles (top bit set) after them
     const auto split = static_cast<std::size_t>(

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <heddle/base/lender.h>
-#include <heddle/voxelize/bin.h>
 #include <heddle/voxelize/block/fit_block.h>
 #include <heddle/voxelize/fiber/gather_fibers.h>
+#include <heddle/voxelize/prepare.h>
 #include <heddle/voxelize/triangle/gather_triangles.h>
 #include <heddle/voxelize/voxelize_options.h>
 
@@ -13,24 +13,20 @@
 
 namespace heddle {
 
-/// All that one voxelization shares: made once, read by every thread.
+/// All that one voxelization shares: read by every thread.
 struct VoxelizeContext {
-    const Geometry& geometry;
+    const PreparedGeometry& prepared;
     const VoxelizeOptions& options;
-    LatticeUnits units;
-    FiberSource fibers;
-    TriangleSource triangles;
-    SurfaceSource surfaces;
-    Lattice lattice;
-    BlockRange range;
     FitOptions fit;
 
-    VoxelizeContext(const Geometry& geometry,
+    /// @param with_sums  finished blocks have their sums, for a BlockVisitor, also where the result
+    ///                   does not hold them
+    VoxelizeContext(const PreparedGeometry& prepared,
                     const VoxelizeOptions& options,
-                    const Lattice& lattice,
-                    Vec3i voxel_lo,
-                    Vec3i voxel_hi);
+                    bool with_sums = false);
 
+    /// Which optional data the result holds.
+    [[nodiscard]] VoxelGridFields fields() const;
     /// What is known of the result before it is there.
     [[nodiscard]] VoxelGridInfo info() const;
 };

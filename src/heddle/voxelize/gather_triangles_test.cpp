@@ -5,6 +5,7 @@
 #include <heddle/sggx/moments.h>
 #include <heddle/sggx/pack.h>
 #include <heddle/voxel/leaf_voxels.h>
+#include <heddle/voxelize/voxelize.h>
 
 #include <gtest/gtest.h>
 

@@ -4,6 +4,7 @@
 #include <heddle/base/parallel.h>
 #include <heddle/base/random.h>
 #include <heddle/voxelize/block_worker.h>
+#include <heddle/voxelize/prepare.h>
 #include <heddle/voxelize/triangle/triangle_scan.h>
 
 #include <algorithm>
@@ -191,7 +192,7 @@ BlockCounts measure_sample(VoxelizePlan& plan,
                            BlockVisitor* visitor) {
     const std::size_t blocks = bins.blocks().size();
     if (blocks == 0) return {};
-    const bool surfaces = context.triangles.count() > context.fibers.span_count();
+    const bool surfaces = context.prepared.triangles.count() > context.prepared.fibers.span_count();
     // a block of surfaces takes little time, and differs more from the next
     const std::size_t wanted = surfaces ? std::clamp<std::size_t>(blocks / 32, 16, 256)
                                         : std::clamp<std::size_t>(blocks / 32, 4, 48);
@@ -243,6 +244,21 @@ BlockCounts measure_sample(VoxelizePlan& plan,
             .surface_samples = scaled(&BlockCounts::surface_samples)};
 }
 
+/// @param work  of all blocks, from measure_sample()
+double predict_seconds(const VoxelizePlan& plan, const BlockCounts& work) {
+    const auto voxels = static_cast<double>(plan.voxels);
+    const double fibers = kSecondsPerStep * plan.steps +
+                          kSecondsPerSubvoxel * static_cast<double>(plan.touched_subvoxels) +
+                          kSecondsPerVoxel * voxels;
+    const double surfaces = kSecondsPerTriangle * static_cast<double>(work.triangles) +
+                            kSecondsPerHit * static_cast<double>(work.triangle_hits) +
+                            kSecondsPerSample * static_cast<double>(work.surface_samples) +
+                            kSecondsPerSurfaceVoxel * voxels;
+    return ((plan.steps > 0.0 ? fibers : 0.0) + (work.triangles > 0 ? surfaces : 0.0) +
+            plan.visitor_seconds) /
+           thread_count();
+}
+
 template <typename T>
 std::int64_t bytes_of(const std::vector<T>& v) {
     return static_cast<std::int64_t>(v.capacity() * sizeof(T));
@@ -282,9 +298,9 @@ void check_blocks(const BlockRange& range, const VoxelizeOptions& options) {
 /// Splits the work into batches and decides whether finished blocks wait in a file.
 void plan_memory(VoxelizePlan& plan, const VoxelizeContext& context, const Bins& bins) {
     const std::int64_t limit = memory_limit(context.options);
-    const std::int64_t fixed = kProgramBytes + geometry_bytes(context.geometry) +
-                               context.fibers.byte_count() +
-                               SurfaceSource::predict_bytes(context.geometry);
+    const std::int64_t fixed = kProgramBytes + geometry_bytes(context.prepared.geometry) +
+                               context.prepared.fibers.byte_count() +
+                               SurfaceSource::predict_bytes(context.prepared.geometry);
     const std::int64_t counts = bins.byte_count();
     const std::int64_t workers = thread_count() * BlockWorker::byte_count(context.fit);
     const VoxelGridFields& fields = plan.fields;
@@ -348,29 +364,21 @@ VoxelizePlan plan_voxelize(const Geometry& geometry,
                            const Progress& progress,
                            BlockVisitor* visitor) {
     VoxelizePlan plan = plan_range(geometry, options);
-    VoxelizeContext context(geometry, options, plan.lattice, plan.voxel_lo, plan.voxel_hi);
-    const Bins bins(context.fibers, context.triangles, context.range, progress);
-    plan.fields = context.fit.fields;
-    if (visitor != nullptr) context.fit.fields.masks = true;
+    auto prepared = std::make_unique<PreparedGeometry>(geometry, plan.lattice, plan.voxel_lo,
+                                                       plan.voxel_hi, options.seed);
+    const Bins& bins = prepared->bins(progress);
+    const VoxelizeContext context(*prepared, options, visitor != nullptr);
+    plan.fields = context.fields();
     plan.blocks = static_cast<std::int64_t>(bins.blocks().size());
     plan.primitives =
-        static_cast<std::int64_t>(context.fibers.span_count() + context.triangles.count());
-    plan.steps = context.fibers.steps();
-    plan.step_length = context.units.unit;
+        static_cast<std::int64_t>(prepared->fibers.span_count() + prepared->triangles.count());
+    plan.step_length = prepared->units.unit;
+    plan.steps = prepared->fibers.fiber_length() / plan.step_length;
     plan.chord_error = kChordSagitta * 2.0 / 3.0;
     const BlockCounts work = measure_sample(plan, context, bins, progress, visitor);
-    const auto voxels = static_cast<double>(plan.voxels);
-    const double fibers = kSecondsPerStep * plan.steps +
-                          kSecondsPerSubvoxel * static_cast<double>(plan.touched_subvoxels) +
-                          kSecondsPerVoxel * voxels;
-    const double surfaces = kSecondsPerTriangle * static_cast<double>(work.triangles) +
-                            kSecondsPerHit * static_cast<double>(work.triangle_hits) +
-                            kSecondsPerSample * static_cast<double>(work.surface_samples) +
-                            kSecondsPerSurfaceVoxel * voxels;
-    plan.seconds = ((plan.steps > 0.0 ? fibers : 0.0) + (work.triangles > 0 ? surfaces : 0.0) +
-                    plan.visitor_seconds) /
-                   thread_count();
+    plan.seconds = predict_seconds(plan, work);
     plan_memory(plan, context, bins);
+    plan.prepared = std::make_shared<PreparedSlot>(std::move(prepared));
     return plan;
 }
 

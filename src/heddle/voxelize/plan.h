@@ -6,9 +6,12 @@
 #include <heddle/voxelize/voxelize_options.h>
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace heddle {
+
+class PreparedSlot;
 
 /// What the voxelizer would do, and what it would cost.
 struct VoxelizePlan {
@@ -36,6 +39,8 @@ struct VoxelizePlan {
     bool spool = false;             ///< finished blocks wait in a temporary file
     /// predicted, on `thread_count()` threads of the machine that was measured
     double seconds = 0.0;
+    /// what the first run by this plan, or by a copy of it, need not make again (prepare.h)
+    std::shared_ptr<PreparedSlot> prepared;
 };
 
 /// The part of plan_voxelize() that needs no look at the blocks: lattice, bounds and range of voxels.

@@ -1,7 +1,7 @@
 #include <heddle/voxelize/voxelize.h>
 
 #include <heddle/base/parallel.h>
-#include <heddle/voxel/block_keeper.h>
+#include <heddle/voxel/block_sink.h>
 #include <heddle/voxelize/block_order.h>
 #include <heddle/voxelize/block_worker.h>
 
@@ -28,6 +28,26 @@ struct SortedBlocks {
     }
 };
 
+/// Blocks of an order that are done with one set of lists.
+struct Batch {
+    std::size_t begin, end;
+};
+
+/// Cuts the order so that each batch has about the same number of primitives.
+std::vector<Batch> cut_batches(const BlockOrder& order, const Bins& bins, std::int64_t batches) {
+    const std::uint64_t least =
+        bins.total_entries() / static_cast<std::uint64_t>(std::max<std::int64_t>(1, batches)) + 1;
+    std::vector<Batch> out;
+    for (std::size_t begin = 0; begin < order.block.size(); begin = out.back().end) {
+        std::size_t end = begin;
+        for (std::uint64_t sum = 0; end < order.block.size() && sum < least; ++end) {
+            sum += bins.entries(order.block[end]);
+        }
+        out.push_back({begin, end});
+    }
+    return out;
+}
+
 } // namespace
 
 std::unique_ptr<VoxelSource> voxelize(const Geometry& geometry,
@@ -35,42 +55,28 @@ std::unique_ptr<VoxelSource> voxelize(const Geometry& geometry,
                                       const VoxelizePlan& plan,
                                       Progress& progress,
                                       BlockVisitor* visitor) {
-    VoxelizeContext context(geometry, options, plan.lattice, plan.voxel_lo, plan.voxel_hi);
-    const Bins bins(context.fibers, context.triangles, context.range, progress);
+    const std::unique_ptr<PreparedGeometry> prepared = take_prepared(plan, geometry, options.seed);
+    const Bins& bins = prepared->bins(progress);
+    const VoxelizeContext context(*prepared, options, visitor != nullptr);
     const BlockOrder order(bins.range(), bins.blocks());
-    const std::span<const std::uint32_t> blocks(order.block);
-    BlockKeeper keeper(context.info(), blocks.size(), plan.spool, options.spool_dir);
-    if (visitor != nullptr) {
-        context.fit.fields.masks = true;
-        visitor->begin(context.info(), order.index, plan.spool ? options.spool_dir : "");
-    }
+    BlockSink sink(context.info(), order.index, plan.spool, options.spool_dir, visitor);
     WorkerPool pool(context);
     progress.begin("voxelize", "primitives", static_cast<std::int64_t>(bins.total_entries()));
-    const std::uint64_t batch_entries =
-        bins.total_entries() / static_cast<std::uint64_t>(std::max<std::int64_t>(1, plan.batches)) +
-        1;
-    for (std::size_t begin = 0; begin < blocks.size();) {
-        std::size_t end = begin;
-        for (std::uint64_t sum = 0; end < blocks.size() && sum < batch_entries; ++end) {
-            sum += bins.entries(blocks[end]);
-        }
-        const SortedBlocks sorted(blocks.subspan(begin, end - begin));
+    for (const auto [begin, end] : cut_batches(order, bins, plan.batches)) {
+        const SortedBlocks sorted(std::span(order.block).subspan(begin, end - begin));
         const Bins::Lists lists = bins.fill(sorted.block, progress);
-        parallel_chunks(end - begin, 1, [&](std::size_t i, std::size_t) {
+        parallel_chunks(end - begin, 1, [&, first = begin](std::size_t i, std::size_t) {
             progress.check();
             const std::span<const Primitive> primitives = lists.of(sorted.place[i]);
             VoxelBlock out;
             pool.with([&](BlockWorker& worker) {
-                worker.run(blocks[begin + i], primitives, progress, out);
+                worker.run(order.block[first + i], primitives, progress, out);
             });
-            if (visitor != nullptr) visitor->visit(begin + i, out);
-            if (!options.keep_sums) drop_sums(out);
-            keeper.keep(begin + i, out);
+            sink.take(first + i, out);
             progress.advance(static_cast<std::int64_t>(primitives.size()));
         });
-        begin = end;
     }
-    return keeper.finish();
+    return sink.finish();
 }
 
 } // namespace heddle

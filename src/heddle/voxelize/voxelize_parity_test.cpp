@@ -1,4 +1,5 @@
 #include <heddle/base/parallel.h>
+#include <heddle/voxelize/prepare.h>
 #include <heddle/voxelize/test_swatch.h>
 
 #include <gtest/gtest.h>
@@ -51,6 +52,23 @@ TEST(VoxelizeParity, AMemoryLimitIsPlannedForAndGivesTheSameBits) {
     EXPECT_TRUE(tight.spool);
     EXPECT_LE(tight.peak_bytes, options.memory_bytes);
     EXPECT_TRUE(whole == content_of(*voxelize(swatch(), options, tight, silent)));
+}
+
+TEST(VoxelizeParity, APlanHandsOnWhatItPreparedOnceAndServesAnyRun) {
+    const VoxelizeOptions options = options_of(60);
+    const VoxelizePlan plan = plan_voxelize(swatch(), options);
+    VoxelizeOptions other_seed = options;
+    other_seed.seed = 6;
+    Progress silent;
+    const std::map<Key, Content> first = content_of(*voxelize(swatch(), options, plan, silent));
+    EXPECT_EQ(plan.prepared->take(), nullptr) << "it is not in memory after a run";
+    EXPECT_TRUE(first == content_of(*voxelize(swatch(), options, plan, silent)));
+
+    const VoxelizePlan of_other = plan_voxelize(swatch(), other_seed);
+    EXPECT_TRUE(first == content_of(*voxelize(swatch(), options, of_other, silent)));
+    const Geometry copy = swatch();
+    const VoxelizePlan again = plan_voxelize(swatch(), options);
+    EXPECT_TRUE(first == content_of(*voxelize(copy, options, again, silent)));
 }
 
 TEST(VoxelizeParity, ARegionGivesTheVoxelsOfTheWhole) {

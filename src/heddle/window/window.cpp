@@ -4,6 +4,7 @@
 #include <heddle/window/controls.h>
 #include <heddle/window/panel.h>
 #include <heddle/window/presenter.h>
+#include <heddle/window/watched_window.h>
 
 #include <epoxy/gl.h>
 // after epoxy, which has OpenGL's names
@@ -109,6 +110,7 @@ struct Run {
     viewer::Settings settings;
     const WindowOptions& options;
     const Progress& progress;
+    const std::function<void(std::int64_t)>& shown;
     Answers answers;
     WindowCounts counts;
     std::int64_t frames = 0;
@@ -167,8 +169,7 @@ void Run::once() {
         if (progress.cancelled()) break;
         frame(window.get(), session, controls, panel, presenter);
         context->check("view");
-        if (++frames == options.lose_after)
-            opengl::check_status(GL_GUILTY_CONTEXT_RESET, 0, "view");
+        shown(++frames);
     }
 }
 
@@ -178,8 +179,16 @@ WindowCounts run_window(const viewer::Subject& subject,
                         const viewer::Settings& settings,
                         const WindowOptions& options,
                         const Progress& progress) {
+    return run_watched_window(subject, settings, options, progress, [](std::int64_t) {});
+}
+
+WindowCounts run_watched_window(const viewer::Subject& subject,
+                                const viewer::Settings& settings,
+                                const WindowOptions& options,
+                                const Progress& progress,
+                                const std::function<void(std::int64_t)>& shown) {
     constexpr int kMostLosses = 3;
-    Run run{subject, settings, options, progress, {}, {}};
+    Run run{subject, settings, options, progress, shown, {}, {}};
     for (int loss = 0;; ++loss) {
         try {
             run.once();

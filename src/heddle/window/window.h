@@ -10,8 +10,6 @@ namespace heddle::window {
 struct WindowOptions {
     std::int32_t width = 1280; ///< pixels
     std::int32_t height = 800;
-    /// frames after which the context is taken for lost, once; 0: never
-    std::int64_t lose_after = 0;
 };
 
 /// How a window answered.

@@ -1,4 +1,5 @@
-#include <heddle/window/window.h>
+#include <heddle/opengl/context.h>
+#include <heddle/window/watched_window.h>
 
 #include <heddle/geom/generate.h>
 
@@ -28,8 +29,11 @@ TEST(Window, OpensAnewWhereTheContextIsLostAndEndsWhenItIsCancelled) {
         progress.cancel();
     });
     WindowCounts counts;
-    EXPECT_NO_THROW(counts = run_window(subject, settings,
-                                        {.width = 120, .height = 100, .lose_after = 3}, progress));
+    const auto lose_third = [](std::int64_t frame) {
+        if (frame == 3) throw opengl::LostContext(ErrorCode::Device, "view: lost");
+    };
+    EXPECT_NO_THROW(counts = run_watched_window(subject, settings, {.width = 120, .height = 100},
+                                                progress, lose_third));
     closer.join();
     EXPECT_EQ(counts.contexts, 2);
 }

@@ -6,15 +6,25 @@
 
 namespace heddle {
 
-/// A cubic piece P(t) = c[0] + c[1] t + c[2] t^2 + c[3] t^3, t in [0, 1], scene units.
-struct Cubic {
-    Vec3d c[4];
-    [[nodiscard]] HEDDLE_HD Vec3d at(double t) const {
+/// P(t) = c[0] + c[1] t + c[2] t^2 + c[3] t^3.   slice/slice_glsl.h has the same body in GLSL, which
+/// shares no source with C++, and so have the frames of yarn_section.h and fiber_source.cpp.
+/// @tparam T  float or double
+template <typename T>
+struct PowerCubic {
+    Vec3<T> c[4];
+    [[nodiscard]] HEDDLE_HD Vec3<T> at(T t) const {
         return c[0] + t * (c[1] + t * (c[2] + t * c[3]));
     }
-    [[nodiscard]] HEDDLE_HD Vec3d derivative(double t) const {
-        return c[1] + t * (2.0 * c[2] + (3.0 * t) * c[3]);
+    [[nodiscard]] HEDDLE_HD Vec3<T> derivative(T t) const {
+        return c[1] + t * (T(2) * c[2] + (T(3) * t) * c[3]);
     }
+    [[nodiscard]] HEDDLE_HD Vec3<T> second_derivative(T t) const {
+        return T(2) * c[2] + (T(6) * t) * c[3];
+    }
+};
+
+/// A cubic piece, t in [0, 1], scene units.
+struct Cubic : PowerCubic<double> {
     /// The part [t0, t0 + dt] as a cubic of its own.
     [[nodiscard]] HEDDLE_HD Cubic part(double t0, double dt) const {
         return {{at(t0), dt * derivative(t0), (dt * dt) * (c[2] + (3.0 * t0) * c[3]),

@@ -1,6 +1,7 @@
 #include <heddle/yarn/fiber_source.h>
 
 #include <heddle/base/parallel.h>
+#include <heddle/yarn/yarn_section.h>
 
 #include <algorithm>
 #include <cmath>
@@ -38,10 +39,6 @@ Vec3d tangent_at(const Cubic& c, double t) {
     const Vec3d d = c.derivative(t);
     if (dot(d, d) > 0.0) return normalize(d);
     return normalize(c.at(1.0) - c.at(0.0), Vec3d{0.0, 0.0, 1.0});
-}
-
-Vec3d perpendicular(Vec3d t) {
-    return to_double(any_perpendicular(to_float(t)));
 }
 
 template <typename T>
@@ -100,9 +97,9 @@ Cubic span_cubic(const CurveSet& set, std::size_t curve, std::size_t k) {
     return span_cubic(points_of(set), curve, k);
 }
 
-FiberSource::FiberSource(const Geometry& geometry, const LatticeUnits& units, std::uint64_t seed)
+FiberSource::FiberSource(const Geometry& geometry, double piece_length, std::uint64_t seed)
     : geometry_(geometry),
-      units_(units),
+      piece_length_(piece_length),
       seed_(seed),
       first_span_(1, 0),
       curve_spans_(geometry.curves.size()),
@@ -125,7 +122,7 @@ FiberSource::FiberSource(const Geometry& geometry, const LatticeUnits& units, st
         view.has_yarn = yarn != nullptr;
         if (yarn != nullptr) view.yarn = yarn_view(*yarn);
     }
-    count_steps();
+    measure_fibers();
 }
 
 void FiberSource::build_frames(std::uint32_t s) {
@@ -141,7 +138,7 @@ void FiberSource::build_frames(std::uint32_t s) {
         const std::size_t knot = spans[c] + c; // a curve has one knot more than spans
         Cubic cubic = span_cubic(set, c, 0);
         Vec3d tangent = tangent_at(cubic, 0.0);
-        Vec3d normal = perpendicular(tangent);
+        Vec3d normal = any_perpendicular(tangent);
         double sum = 0.0;
         frames.normal[knot] = to_float(normal);
         for (std::size_t k = 0; k < count; ++k) {
@@ -150,7 +147,7 @@ void FiberSource::build_frames(std::uint32_t s) {
             sum += arc_length(cubic);
             const Vec3d next = tangent_at(cubic, 1.0);
             normal = transport(normal, cubic.c[0], tangent, cubic.at(1.0), next);
-            normal = normalize(normal - dot(normal, next) * next, perpendicular(next));
+            normal = normalize(normal - dot(normal, next) * next, any_perpendicular(next));
             tangent = next;
             frames.normal[knot + k + 1] = to_float(normal);
         }
@@ -164,7 +161,7 @@ void FiberSource::build_frames(std::uint32_t s) {
     });
 }
 
-void FiberSource::count_steps() {
+void FiberSource::measure_fibers() {
     for (std::uint32_t s = 0; s < geometry_.curves.size(); ++s) {
         const std::uint64_t begin = first_span_[s];
         const double total = reduce_chunks(
@@ -178,7 +175,7 @@ void FiberSource::count_steps() {
                 return sum;
             },
             [](double a, double b) { return a + b; });
-        steps_ += total / units_.unit * static_cast<double>(fiber_count(s));
+        fiber_length_ += total * static_cast<double>(fiber_count(s));
     }
 }
 

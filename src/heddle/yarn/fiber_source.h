@@ -1,7 +1,6 @@
 #pragma once
 
 #include <heddle/geom/geometry.h>
-#include <heddle/voxel/lattice_units.h>
 #include <heddle/yarn/fiber_table.h>
 #include <heddle/yarn/fiber_view.h>
 
@@ -15,39 +14,36 @@ namespace heddle {
 
 /// The curves of a geometry as numbered pieces, with the arc lengths and the frames that yarns need:
 /// what a FiberView points to. Both work by the view's functions.
-///
-/// Piece ids are dense per span: id = first_span + span, times kMaxParts, plus part.
 class FiberSource {
 public:
-    /// @param geometry  must outlive it, unchanged
-    FiberSource(const Geometry& geometry, const LatticeUnits& units, std::uint64_t seed);
+    /// @param geometry      must outlive it, unchanged
+    /// @param piece_length  that no piece passes, scene units; infinite: spans stay whole
+    FiberSource(const Geometry& geometry, double piece_length, std::uint64_t seed);
 
     /// Valid while this lives.
     [[nodiscard]] FiberView view() const {
-        return {sets_.data(), first_span_.data(), sets_.size(), span_count(), seed_, units_};
+        return {sets_.data(), first_span_.data(), sets_.size(), span_count(), seed_, piece_length_};
     }
     [[nodiscard]] std::uint64_t span_count() const { return first_span_.back(); }
     /// Span `span` (over all sets) as one piece, with the number of parts that it is cut into.
     [[nodiscard]] FiberPiece whole_span(std::uint64_t span) const {
         return view().whole_span(span);
     }
-    /// Part `part` of a whole span.
-    [[nodiscard]] static FiberPiece part_of(const FiberPiece& span, std::uint32_t part) {
-        return heddle::part_of(span, part);
-    }
     /// Distance from the piece's centreline within which it has matter; scene units.
     [[nodiscard]] double reach(const FiberPiece& piece) const { return view().reach(piece); }
-    [[nodiscard]] YarnCourse course(const FiberPiece& piece) const { return view().course(piece); }
+    /// @param unit  that the scales are given in, scene units
+    [[nodiscard]] YarnCourse course(const FiberPiece& piece, double unit) const {
+        return view().course(piece, unit);
+    }
     /// Fibers of one curve of the set, flyaway hairs not counted.
     [[nodiscard]] std::int64_t fiber_count(std::uint32_t set) const;
 
     [[nodiscard]] const Geometry& geometry() const { return geometry_; }
-    [[nodiscard]] const LatticeUnits& units() const { return units_; }
     [[nodiscard]] std::uint64_t seed() const { return seed_; }
     [[nodiscard]] const YarnType* yarn_of(std::uint32_t set) const;
     [[nodiscard]] std::int64_t byte_count() const;
-    /// Subvoxel edges of fiber length, counted along the centrelines.
-    [[nodiscard]] double steps() const { return steps_; }
+    /// Length of all fibers, measured along the centrelines, scene units.
+    [[nodiscard]] double fiber_length() const { return fiber_length_; }
 
 private:
     struct YarnFrames {
@@ -56,16 +52,16 @@ private:
         std::vector<float> closing;
     };
     void build_frames(std::uint32_t set);
-    void count_steps();
+    void measure_fibers();
 
     const Geometry& geometry_;
-    LatticeUnits units_;
+    double piece_length_;
     std::uint64_t seed_;
     std::vector<std::uint64_t> first_span_;               ///< per set, and the end
     std::vector<std::vector<std::uint64_t>> curve_spans_; ///< per set: first span of each curve
     std::vector<YarnFrames> frames_;                      ///< per set; empty for plain fibers
     std::vector<CurveSetView> sets_;
-    double steps_ = 0.0;
+    double fiber_length_ = 0.0;
 };
 
 } // namespace heddle

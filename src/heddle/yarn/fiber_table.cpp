@@ -70,10 +70,8 @@ SliceTexel slice_texel(const Texture& image, std::size_t index) {
     const std::uint8_t* t = image.texels.data() + index * static_cast<std::size_t>(image.channels);
     Vec3f linear;
     for (int c = 0; c < 3; ++c) {
-        const float v = static_cast<float>(t[c]) / 255.0f;
-        linear[c] = !image.srgb     ? v
-                    : v <= 0.04045f ? v / 12.92f
-                                    : std::pow((v + 0.055f) / 1.055f, 2.4f);
+        linear[c] =
+            image.srgb ? linear_from_srgb_byte<float>(t[c]) : static_cast<float>(t[c]) / 255.0f;
     }
     return {pack_color(linear), static_cast<float>(t[3]) / 255.0f};
 }

@@ -3,8 +3,8 @@
 #include <heddle/base/offset_search.h>
 #include <heddle/base/platform.h>
 #include <heddle/geom/curves.h>
-#include <heddle/voxel/lattice_units.h>
 #include <heddle/yarn/cubic.h>
+#include <heddle/yarn/piece_id.h>
 #include <heddle/yarn/yarn_view.h>
 
 #include <algorithm>
@@ -13,14 +13,7 @@
 
 namespace heddle {
 
-/// Most parts of a span. The id of a piece is its span's number << 16 | part.
-constexpr std::uint64_t kMaxParts = 1u << 16;
-
-/// A piece is at most this long, in units: half a block, so that a long hair visits the blocks along
-/// it and not those of its box, and single precision resolves 1e-5 of a subvoxel beside its anchor.
-constexpr double kPieceLength = 128.0;
-
-/// A piece of a span, short enough for single precision beside its anchor: what is binned to blocks.
+/// A piece of a span, no longer than FiberView::piece_length: what is binned to blocks.
 struct FiberPiece {
     std::uint32_t set = 0;  ///< index into Geometry::curves
     std::uint32_t part = 0; ///< of `parts`
@@ -39,7 +32,13 @@ struct YarnCourse {
     double turns_per_length[3]{}; ///< plies, fibers, migration; whole turns over a closed yarn
     double closing_turns = 0.0;   ///< turn of the frame that closes a closed yarn, over its length
     Vec3f normal0, normal1;       ///< cross-section frame at the piece's ends
-    float scale0 = 1.0f, scale1 = 1.0f; ///< units per model unit at the ends
+    float scale0 = 1.0f, scale1 = 1.0f; ///< of course()'s unit per model unit, at the ends
+
+    /// By how much the plies are turned at yarn length `s`, with what closes a closed yarn's frame.
+    [[nodiscard]] HEDDLE_HD double ply_turns(double s) const {
+        const double closing = total > 0.0 ? closing_turns * s / total : 0.0;
+        return turns_per_length[0] * s + closing;
+    }
 };
 
 /// A CurveSet as pointers and numbers, with what was computed of its yarns.
@@ -72,6 +71,10 @@ struct CurveSetView {
         const std::uint64_t begin = first[curve];
         if (is_closed(curve)) return begin + k % (first[curve + 1] - begin);
         return begin + k + (basis == Basis::Linear ? 0u : 1u);
+    }
+    /// Colour of a piece's span, where the set has colours.
+    [[nodiscard]] HEDDLE_HD std::uint32_t color_of(const FiberPiece& piece) const {
+        return color[knot_point(piece.curve, piece.span)];
     }
     /// Yarn radius at the piece's start or end, scene units.
     [[nodiscard]] HEDDLE_HD double radius_at(const FiberPiece& piece, bool end) const {
@@ -132,7 +135,7 @@ struct FiberView {
     std::uint64_t set_count = 0;
     std::uint64_t span_count = 0;
     std::uint64_t seed = 0;
-    LatticeUnits units;
+    double piece_length = 0.0; ///< scene units; no piece is longer, up to kMaxParts of a span
 
     /// Span `span` (over all sets) as one piece, with the number of parts that it is cut into.
     [[nodiscard]] HEDDLE_HD FiberPiece whole_span(std::uint64_t span) const {
@@ -144,21 +147,21 @@ struct FiberView {
         piece.curve = range_of(set.spans, set.curve_count, local);
         piece.span = local - set.spans[piece.curve];
         piece.cubic = span_cubic(set, piece.curve, piece.span);
-        const double parts = std::ceil(piece.cubic.polygon_length() / (kPieceLength * units.unit));
+        const double parts = std::ceil(piece.cubic.polygon_length() / (piece_length));
         piece.parts =
             static_cast<std::uint32_t>(std::clamp(parts, 1.0, static_cast<double>(kMaxParts)));
         return piece;
     }
-    /// The piece of an id (see kMaxParts).
-    [[nodiscard]] HEDDLE_HD FiberPiece piece(std::uint64_t id) const {
-        return part_of(whole_span(id >> 16), static_cast<std::uint32_t>(id & 0xffff));
+    [[nodiscard]] HEDDLE_HD FiberPiece piece(PieceId id) const {
+        return part_of(whole_span(span_of_piece(id)), part_of_piece(id));
     }
     [[nodiscard]] HEDDLE_HD double reach(const FiberPiece& piece) const {
         return sets[piece.set].reach(piece);
     }
-    [[nodiscard]] HEDDLE_HD YarnCourse course(const FiberPiece& piece) const;
+    /// @param unit  that the scales are given in, scene units
+    [[nodiscard]] HEDDLE_HD YarnCourse course(const FiberPiece& piece, double unit) const;
 };
-static_assert(sizeof(FiberView) == 128, "the same on host and device");
+static_assert(sizeof(FiberView) == 48, "the same on host and device");
 
 namespace fiber_detail {
 
@@ -180,14 +183,14 @@ HEDDLE_HD inline void set_turns(const YarnView& yarn, YarnCourse& course) {
 
 } // namespace fiber_detail
 
-HEDDLE_HD inline YarnCourse FiberView::course(const FiberPiece& piece) const {
+HEDDLE_HD inline YarnCourse FiberView::course(const FiberPiece& piece, double unit) const {
     const CurveSetView& set = sets[piece.set];
     YarnCourse course;
     const double r0 = set.radius_at(piece, false);
     const double r1 = set.radius_at(piece, true);
     const double model = set.has_yarn ? static_cast<double>(set.yarn.model_radius) : 1.0;
-    course.scale0 = static_cast<float>(r0 / units.unit / model);
-    course.scale1 = static_cast<float>(r1 / units.unit / model);
+    course.scale0 = static_cast<float>(r0 / unit / model);
+    course.scale1 = static_cast<float>(r1 / unit / model);
     if (set.length == nullptr) return course;
 
     const std::uint64_t knot = set.spans[piece.curve] + piece.curve; // a knot more than spans

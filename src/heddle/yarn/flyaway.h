@@ -73,8 +73,9 @@ public:
         return s * frequency_ + static_cast<double>(turns);
     }
     [[nodiscard]] HEDDLE_HD static double period_of(double phase) {
-        const auto whole = static_cast<double>(static_cast<long long>(phase + 0.5));
-        return whole > phase + 0.5 ? whole - 1.0 : whole;
+        const double from_start = phase + 0.5; // a period starts half a turn before
+        const auto whole = static_cast<double>(static_cast<long long>(from_start));
+        return whole > from_start ? whole - 1.0 : whole;
     }
 
 private:
@@ -122,6 +123,12 @@ struct HairShape {
           pe(yarn.hair_pe) {}
 };
 
+/// A ply, as its hairs are drawn by it.
+struct HairPly {
+    std::uint64_t seed; ///< the run's, plus the number of the set of curves
+    std::uint64_t curve, ply;
+};
+
 /// Hair flyaways of one yarn: one a cell of its length 1 / density, drawn by the cell's number.
 ///                                                                       [Zhao 2016, 5.2]
 class HairModel {
@@ -149,19 +156,13 @@ public:
     }
 
     /// The part of a cell's hair that lies over yarn length [s0, s1).
-    /// @param seed  the run's, plus the number of the set of curves
-    /// @return      false: none
-    [[nodiscard]] HEDDLE_HD bool hair_of(std::int64_t cell,
-                                         std::uint64_t seed,
-                                         std::uint64_t curve,
-                                         std::uint64_t ply,
-                                         double s0,
-                                         double s1,
-                                         FlyawayHair& hair) const {
+    /// @return  false: none
+    [[nodiscard]] HEDDLE_HD bool
+    hair_of(std::int64_t cell, const HairPly& ply, double s0, double s1, FlyawayHair& hair) const {
         if (!closed_ && (cell < 0 || cell >= cells_)) return false;
         const std::int64_t turn = closed_ ? floor_div(cell, cells_) : 0;
         const auto own = static_cast<std::uint64_t>(cell - turn * cells_);
-        CounterRandom random{.seed = hash64(seed + 0x68616972u, curve, ply), .id = own};
+        CounterRandom random{.seed = hash64(ply.seed + 0x68616972u, ply.curve, ply.ply), .id = own};
         hair = place(random, own);
         hair.z0 += static_cast<double>(turn) * total_;
         // most hairs near a piece do not reach it: the rest of the draw is not needed
@@ -171,27 +172,17 @@ public:
         const double most = end < root ? root : end;
         if (most <= s0 || least >= s1) return false;
         shape(random, hair);
-        const double qa = (s0 - hair.z0) / hair.ze;
-        const double qb = (s1 - hair.z0) / hair.ze;
-        const double q0 = qa < qb ? qa : qb;
-        const double q1 = qa < qb ? qb : qa;
-        hair.t0 = hair.t0 < q0 ? q0 : hair.t0;
-        hair.t1 = q1 < hair.t1 ? q1 : hair.t1;
+        cut(s0, s1, hair);
         return hair.t0 < hair.t1;
     }
 
     /// Calls visit(hair) for each of a ply's hairs over yarn length [s0, s1), as hair_of().
     template <typename Visit>
-    void for_each(std::uint64_t seed,
-                  std::uint64_t curve,
-                  std::uint64_t ply,
-                  double s0,
-                  double s1,
-                  const Visit& visit) const {
+    void for_each(const HairPly& ply, double s0, double s1, const Visit& visit) const {
         const Cells all = cells(s0, s1);
         for (std::int64_t cell = all.first; cell <= all.last; ++cell) {
             FlyawayHair hair;
-            if (hair_of(cell, seed, curve, ply, s0, s1, hair)) visit(hair);
+            if (hair_of(cell, ply, s0, s1, hair)) visit(hair);
         }
     }
 
@@ -218,6 +209,16 @@ private:
         const double before = hair.re > 0.0 ? hair.r0 / hair.re : 0.0;
         hair.t0 = -(before < kRoot ? before : kRoot);
         hair.t1 = 1.0;
+    }
+
+    /// Cuts a hair's parameters to yarn length [s0, s1).
+    HEDDLE_HD static void cut(double s0, double s1, FlyawayHair& hair) {
+        const double qa = (s0 - hair.z0) / hair.ze;
+        const double qb = (s1 - hair.z0) / hair.ze;
+        const double q0 = qa < qb ? qa : qb;
+        const double q1 = qa < qb ? qb : qa;
+        hair.t0 = hair.t0 < q0 ? q0 : hair.t0;
+        hair.t1 = q1 < hair.t1 ? q1 : hair.t1;
     }
 
     HairShape shape_;

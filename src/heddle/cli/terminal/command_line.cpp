@@ -41,7 +41,8 @@ refuse_extra(const Command& command, const std::vector<Option>& options, const s
 
 void check_values(const Option& option, const std::vector<std::string>& values) {
     if (values.size() > 1 && !option.repeats) {
-        throw UsageError(str(spoken_name(option), " is given ", values.size(), " times"));
+        throw UsageError(
+            str(spoken_name(option), " is given ", values.size(), " times; give it once"));
     }
     for (const std::string& value : values) {
         const std::string problem = option.values.problem(value);
@@ -85,21 +86,32 @@ std::vector<std::vector<std::string>> sort_words(const Command& command,
     return values;
 }
 
-/// "scene units; > 0; default 512": what --help puts in brackets.
-std::string bracket(const Option& option) {
-    std::string text;
-    const auto add = [&text](const std::string& part) {
-        if (!part.empty()) text += (text.empty() ? "" : "; ") + part;
+/// The value when not given: as it is, or in words.
+std::string shown_preset(const Option& option) {
+    const std::string& preset = option.preset;
+    return preset.starts_with('(') ? preset.substr(1, preset.size() - 2) : preset;
+}
+
+/// "[scene units; > 0; default: 512]" in the pieces between which a line may end.
+std::vector<std::string> bracket(const Option& option) {
+    std::vector<std::string> parts;
+    const auto add = [&parts](const std::string& part) {
+        if (!part.empty()) parts.push_back(part);
     };
     add(option.unit);
-    if (option.repeats) add("may be given again");
+    if (option.repeats) add("can be repeated");
     add(option.values.range());
-    if (!option.preset.empty()) {
-        add(option.preset.front() == '('
-                ? "else " + option.preset.substr(1, option.preset.size() - 2)
-                : "default " + option.preset);
+    if (!option.preset.empty()) add("default: " + shown_preset(option));
+    std::vector<std::string> pieces;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const std::string part =
+            (i == 0 ? "[" : "") + parts[i] + (i + 1 < parts.size() ? ";" : "]");
+        const bool whole = part.size() <= 40;
+        for (std::string& piece : whole ? std::vector{part} : split(part, ' ')) {
+            pieces.push_back(std::move(piece));
+        }
     }
-    return text.empty() ? "" : " [" + text + "]";
+    return pieces;
 }
 
 std::string left_column(const Option& option) {
@@ -114,32 +126,69 @@ std::string escape_bars(std::string text) {
 }
 
 std::string markdown_row(const Option& option) {
-    std::string preset = option.preset;
-    if (!preset.empty() && preset.front() == '(') preset = preset.substr(1, preset.size() - 2);
-    if (option.required) preset = "required";
+    const std::string preset = option.required ? "required" : shown_preset(option);
     return str("| `", escape_bars(left_column(option)), "` | ", escape_bars(preset), " | ",
                escape_bars(option.values.range()), " | ", option.unit, " | ",
                escape_bars(option.text), " |\n");
 }
 
-std::string markdown_table(const std::string& title, const std::vector<Option>& options) {
+/// A section with a table; the groups are bold rows of it.
+std::string markdown_table(const std::string& title,
+                           const std::string& summary,
+                           const std::vector<Option>& options) {
     std::string text =
-        str("**", title, "**\n\n| option | default | range | unit | what it does |\n",
-            "|---|---|---|---|---|\n");
-    for (const Option& option : options) text += markdown_row(option);
+        str("## ", title, "\n\n", summary, "\n\n",
+            "| option | default | range | unit | what it does |\n", "|---|---|---|---|---|\n");
+    std::string group;
+    for (const Option& option : options) {
+        if (option.group != group) text += str("| **", option.group, "** | | | | |\n");
+        group = option.group;
+        text += markdown_row(option);
+    }
     return text + "\n";
+}
+
+constexpr std::size_t kHelpWidth = 100; // columns
+
+/// `pieces` in lines of at most kHelpWidth, the first of which begins at column `indent`.
+std::string wrap(const std::vector<std::string>& pieces, std::size_t indent) {
+    std::string out;
+    std::size_t column = indent;
+    for (const std::string& piece : pieces) {
+        const bool first = column == indent;
+        if (!first && column + 1 + piece.size() > kHelpWidth) {
+            out += "\n" + std::string(indent, ' ');
+            column = indent;
+        } else if (!first) {
+            out += ' ';
+            ++column;
+        }
+        out += piece;
+        column += piece.size();
+    }
+    return out;
+}
+
+/// What --help says of an option beside its name.
+std::string right_column(const Option& option, std::size_t indent) {
+    std::vector<std::string> pieces = split(option.text, ' ');
+    for (std::string& piece : bracket(option)) pieces.push_back(std::move(piece));
+    return wrap(pieces, indent);
 }
 
 } // namespace
 
 const std::vector<Option>& common_options() {
-    static const std::vector<Option> options{
-        {"--threads", "N", "0", integer(0, 4096), "", "threads to use; 0 = all cores"},
-        {"--seed", "N", "0", integer(0, 4294967295), "", "of all that is random"},
-        {"--json", "", "", flag(), "", "results as one JSON object"},
-        {"--quiet", "", "", flag(), "", "no progress, notes or table: errors only"},
-        {"-h, --help", "", "", flag(), "", "this text"},
-    };
+    static const std::vector<Option> options = grouped(
+        "General",
+        {
+            {"--threads", "N", "0", integer(0, 4096), "", "Number of threads; 0 = one per core."},
+            {"--seed", "N", "0", integer(0, 4294967295), "", "Seed of all random choices."},
+            {"--json", "", "", flag(), "", "Prints the results as one JSON object."},
+            {"--quiet", "", "", flag(), "",
+             "Prints errors only: no progress, notes or results table."},
+            {"-h, --help", "", "", flag(), "", "Prints this help."},
+        });
     return options;
 }
 
@@ -179,11 +228,14 @@ std::string help_text(const Command& command) {
     const std::vector<Option> options = with_common(command);
     std::size_t width = 0;
     for (const Option& option : options) width = std::max(width, left_column(option).size());
-    std::string text = str("usage: ", usage, " [options]\n", command.summary, "\n\n");
+    std::string text = str("usage: ", usage, " [options]\n", command.summary, "\n");
+    std::string group;
     for (const Option& option : options) {
+        if (option.group != group) text += str("\n", option.group, ":\n");
+        group = option.group;
         const std::string left = left_column(option);
-        text += str("  ", left, std::string(width + 2 - left.size(), ' '), option.text,
-                    bracket(option), "\n");
+        text += str("  ", left, std::string(width + 2 - left.size(), ' '),
+                    right_column(option, width + 4), "\n");
     }
     return text;
 }
@@ -191,9 +243,10 @@ std::string help_text(const Command& command) {
 std::string markdown_tables(const std::vector<Command>& commands) {
     std::string text;
     for (const Command& command : commands) {
-        text += markdown_table("heddle " + command.name, command.options);
+        text += markdown_table("heddle " + command.name, command.summary, command.options);
     }
-    return text + markdown_table("every command", common_options());
+    return text + markdown_table("Every command", "These options exist in every command.",
+                                 common_options());
 }
 
 } // namespace heddle::cli

@@ -18,10 +18,10 @@ namespace heddle::cli {
 /// True when the words ask for --help.
 [[nodiscard]] bool wants_help(const std::vector<std::string>& words);
 
-/// The text of `heddle COMMAND --help`.
+/// The text of `heddle COMMAND --help`: rows under the headings of their groups.
 [[nodiscard]] std::string help_text(const Command& command);
 
-/// The rows of all tables as Markdown, for README.md.
+/// The rows of all tables as Markdown, for docs/options.md.
 [[nodiscard]] std::string markdown_tables(const std::vector<Command>& commands);
 
 /// The options that every subcommand has.

@@ -40,8 +40,9 @@ std::string numbers_problem(const std::string& text, const Values& v) {
     const std::vector<std::string> pieces = split(text, v.separator);
     const int n = static_cast<int>(pieces.size());
     if (n != v.least && n != v.most) {
-        return str("'", text, "' has ", n, n == 1 ? " number" : " numbers", "; it takes ", v.least,
-                   v.most > v.least ? str(" or ", v.most) : "", ", joined by '", v.separator, "'");
+        return str("'", text, "' has ", n, n == 1 ? " number" : " numbers", "; expected ", v.least,
+                   v.most > v.least ? str(" or ", v.most) : "", ", separated by '", v.separator,
+                   "'");
     }
     for (const std::string& piece : pieces) {
         const std::optional<double> x = parse_number(piece);
@@ -83,8 +84,9 @@ std::string Values::problem(const std::string& text) const {
     }
     case ValueKind::Numbers: return numbers_problem(text, *this);
     case ValueKind::Bytes:
-        return parse_bytes(text) ? "" : str("'", text, "' is not a size; write 4G or 1500M");
-    case ValueKind::Text: return text.empty() ? "it is empty" : "";
+        return parse_bytes(text) ? ""
+                                 : str("'", text, "' is not a size; write for example 4G or 1500M");
+    case ValueKind::Text: return text.empty() ? "the value is empty" : "";
     case ValueKind::Flag: return {};
     }
     return {};
@@ -125,6 +127,26 @@ Values bytes() {
 std::string Option::key() const {
     const std::size_t at = names.rfind("--");
     return at == std::string::npos ? names : names.substr(at + 2);
+}
+
+std::vector<Option> grouped(const std::string& group, std::vector<Option> rows) {
+    for (Option& row : rows) row.group = group;
+    return rows;
+}
+
+std::vector<Option> joined(const std::vector<std::vector<Option>>& lists) {
+    std::vector<Option> rows;
+    for (const std::vector<Option>& list : lists) rows.insert(rows.end(), list.begin(), list.end());
+    std::vector<std::string> groups;
+    const auto rank = [&groups](const Option& row) {
+        return std::find(groups.begin(), groups.end(), row.group);
+    };
+    for (const Option& row : rows) {
+        if (rank(row) == groups.end()) groups.push_back(row.group);
+    }
+    std::stable_sort(rows.begin(), rows.end(),
+                     [&](const Option& a, const Option& b) { return rank(a) < rank(b); });
+    return rows;
 }
 
 const std::string& Arguments::text(const std::string& key) const {

@@ -21,10 +21,8 @@ std::int64_t array_bytes(int level, const LevelCounts& count, bool maps) {
 }
 
 /// Beside the level's own arrays while it is stored.
-std::int64_t store_bytes(std::int64_t blocks,
-                         int level,
-                         const LevelCounts& count,
-                         const StoreSettings& settings) {
+std::int64_t
+store_bytes(std::int64_t blocks, int level, const LevelCounts& count, const FitOptions& settings) {
     const VoxelGridFields& fields = settings.fields;
     const auto leaves = blocks * static_cast<std::int64_t>(LeafCells{level}.per_block());
     const std::int64_t order = count.voxels * 8 + 4; // for as long as the rest takes

@@ -13,10 +13,10 @@ namespace heddle {
 
 /// What is made of a batch's level 0.
 struct BatchSettings {
-    StoreSettings level0; ///< with fields.masks: columns and sums too
-    StoreSettings above;  ///< of levels above 0
-    int levels = 0;       ///< above level 0, 0 to kBlockLevel
-    bool top = false;     ///< what levels above kBlockLevel are built from is wanted
+    FitOptions level0; ///< with fields.masks: columns and sums too
+    FitOptions above;  ///< of levels above 0
+    int levels = 0;    ///< above level 0, 0 to kBlockLevel
+    bool top = false;  ///< what levels above kBlockLevel are built from is wanted
 
     [[nodiscard]] bool with_maps() const { return level0.fields.map_sums(); }
 };

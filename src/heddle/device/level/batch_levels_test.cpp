@@ -106,8 +106,11 @@ BatchSettings settings_of(const Finest& finest, const LevelBuilder& builder) {
     const VoxelGridInfo& info = finest.source->info();
     const LevelOptions& above = *builder.options_of_built();
     BatchSettings out;
-    out.level0 = {info.lattice.subvoxels, info.max_lobes, info.fields};
-    out.above = {info.lattice.subvoxels, above.merge.max_lobes, above.fields};
+    out.level0.subvoxels = out.above.subvoxels = info.lattice.subvoxels;
+    out.level0.max_lobes = info.max_lobes;
+    out.level0.fields = info.fields;
+    out.above.max_lobes = above.merge.max_lobes;
+    out.above.fields = above.fields;
     out.levels = builder.built_levels();
     out.top = builder.wants_top();
     return out;

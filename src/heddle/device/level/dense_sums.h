@@ -1,9 +1,10 @@
 #pragma once
 
-#include <heddle/base/bits.h>
 #include <heddle/base/platform.h>
 #include <heddle/device/level/block_cell.h>
 #include <heddle/executor/atomic.h>
+#include <heddle/voxel/material_set.h>
+#include <heddle/voxel/sum_fields.h>
 #include <heddle/voxelize/chord/gather_chord.h>
 
 #include <cstddef>
@@ -15,8 +16,9 @@ namespace heddle {
 /// with a place for every voxel. All adding is atomic and of integers.
 struct DenseLobe {
     static constexpr int kMaskWords = 12; ///< columns along x, y, z; 8 of subvoxels; a spare one
-    static constexpr int kLobeWords = 8;  ///< moment xx yy zz xy xz yz, weight; a spare one
-    static constexpr int kMapWords = 12;  ///< as MapSums lies
+    static constexpr int kSubvoxels = 3;  ///< the first mask word of subvoxels
+    static constexpr int kLobeWords = LobeField::Count + 1; ///< and a spare one
+    static constexpr int kMapWords = MapField::Count;
 
     std::uint64_t* masks = nullptr; ///< kMaskWords a voxel, by (x 32 + y) 32 + z
     std::uint64_t* lobes = nullptr; ///< kLobeWords a voxel, two's complement
@@ -28,7 +30,7 @@ struct DenseLobe {
     }
     /// @param word  of the voxel's subvoxels: bit (x n + y) n + z over all words
     HEDDLE_HD void or_subvoxels(int cell, int word, std::uint64_t bits) const {
-        executor::atomic_or(masks + cell * kMaskWords + 3 + word, bits);
+        executor::atomic_or(masks + cell * kMaskWords + kSubvoxels + word, bits);
     }
     HEDDLE_HD void add_lobe(int cell, int field, std::int64_t x) const {
         executor::atomic_add(lobes + cell * kLobeWords + field, static_cast<std::uint64_t>(x));
@@ -48,7 +50,7 @@ struct BatchBlock {
     Vec3i lo, size; ///< first voxel; voxels per axis, fewer than 32 where a region cuts it
     std::uint32_t first_plane = 0; ///< of its lobes: one plane a material
     std::uint32_t planes = 0;
-    std::uint64_t materials[4]{}; ///< bit per material that its primitives have
+    MaterialSet materials; ///< that its primitives have
 };
 static_assert(sizeof(BatchBlock) == 80);
 
@@ -62,13 +64,12 @@ struct DenseSums {
     /// Plane of a material in a block whose primitives have it.
     [[nodiscard]] HEDDLE_HD static std::uint32_t plane_of(const BatchBlock& block,
                                                           std::uint32_t material) {
-        std::uint32_t plane = block.first_plane;
-        for (std::uint32_t w = 0; w < material / 64; ++w) {
-            plane += static_cast<std::uint32_t>(count_bits(block.materials[w]));
-        }
-        const std::uint64_t below = (std::uint64_t{1} << (material % 64)) - 1;
-        return plane +
-               static_cast<std::uint32_t>(count_bits(block.materials[material / 64] & below));
+        return block.first_plane + block.materials.count_below(material);
+    }
+    /// Weight of a lobe; 0 where there is none.
+    /// @param at  plane x kBlockCells + cell
+    [[nodiscard]] HEDDLE_HD std::uint64_t weight_at(std::size_t at) const {
+        return lobes[at * DenseLobe::kLobeWords + LobeField::Weight];
     }
     [[nodiscard]] HEDDLE_HD DenseLobe lobe(std::uint32_t slot, std::uint32_t material) const {
         const std::size_t plane = std::size_t{plane_of(blocks[slot], material)} * kBlockCells;

@@ -36,7 +36,7 @@ template <typename Exec>
                                    const DenseSums& sums,
                                    std::size_t blocks,
                                    bool merging,
-                                   const FitSettings& settings) {
+                                   const FitOptions& options) {
     exec.set_stage("fit");
     const std::size_t cells = blocks * kBlockCells;
     executor::Array<std::uint8_t> voxels = exec.template make<std::uint8_t>(cells);
@@ -60,11 +60,11 @@ template <typename Exec>
     out.columns = exec.template make<std::uint64_t>(3 * n);
     out.lobes = exec.template make<DirectionSums>(out.lobe_count);
     if (sums.maps != nullptr) out.maps = exec.template make<MapSums>(out.lobe_count);
-    exec.for_each(cells + 1, FitVoxelOp{sums, settings, cells, static_cast<std::uint32_t>(n),
+    exec.for_each(cells + 1, FitVoxelOp{sums, options, cells, static_cast<std::uint32_t>(n),
                                         first_voxel.data(), first_lobe.data(), out.key.data(),
                                         out.hits.data(), out.first_lobe.data(), out.order.data(),
                                         out.columns.data(), out.lobes.data(), out.maps.data()});
-    if (merging) merge_lobes(exec, settings.max_lobes, out);
+    if (merging) merge_lobes(exec, options.max_lobes, out);
     return out;
 }
 

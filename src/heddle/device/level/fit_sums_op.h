@@ -5,17 +5,12 @@
 #include <heddle/device/level/dense_sums.h>
 #include <heddle/device/level/level_arrays.h>
 #include <heddle/voxel/lobe_pool.h>
+#include <heddle/voxelize/block/fit_options.h>
 
 #include <cstddef>
 #include <cstdint>
 
 namespace heddle {
-
-/// How a batch's sums become voxels of level 0.
-struct FitSettings {
-    int max_lobes = 3;
-    std::uint64_t normals[4]{}; ///< bit per material: its lobes are of normals
-};
 
 /// One voxel's place in a batch's sums.
 struct SumsPlace {
@@ -48,7 +43,7 @@ struct CountVoxelOp {
             for (std::uint32_t p = 0; p < block.planes; ++p) {
                 const std::size_t at = std::size_t{block.first_plane + p} * kBlockCells +
                                        static_cast<std::size_t>(place.cell);
-                count += sums.lobes[at * DenseLobe::kLobeWords + 6] != 0 ? 1 : 0;
+                count += sums.weight_at(at) != 0 ? 1 : 0;
             }
         }
         voxels[i] = count > 0 ? 1 : 0;
@@ -60,7 +55,7 @@ struct CountVoxelOp {
 /// material.
 struct FitVoxelOp {
     DenseSums sums;
-    FitSettings settings;
+    FitOptions options;
     std::size_t cells; ///< of the batch; item `cells` writes where the last voxel's lobes end
     std::uint32_t voxel_count;
     const std::uint32_t* first_voxel; ///< per i, and the end
@@ -87,7 +82,7 @@ struct FitVoxelOp {
         key[v] = i;
         for (int axis = 0; axis < 3; ++axis) columns[std::size_t{3} * v + axis] = masks[axis];
         int count = 0;
-        for (int w = 0; w < 8; ++w) count += count_bits(masks[3 + w]);
+        for (int w = 0; w < 8; ++w) count += count_bits(masks[DenseLobe::kSubvoxels + w]);
         hits[v] = static_cast<std::uint32_t>(count);
         lobe_begin[v] = first_lobe[i];
         order[v] = 0;
@@ -98,27 +93,25 @@ private:
     /// In the order of their materials: as they were met depends on chance.
     HEDDLE_HD void write_lobes(const BatchBlock& block, std::size_t cell, std::uint32_t to) const {
         std::uint32_t plane = block.first_plane;
-        for (std::uint32_t w = 0; w < 4; ++w) {
-            for (std::uint64_t bits = block.materials[w]; bits != 0; bits &= bits - 1) {
-                const std::size_t at = std::size_t{plane++} * kBlockCells + cell;
-                if (sums.lobes[at * DenseLobe::kLobeWords + 6] == 0) continue;
-                const int bit = count_bits((bits & (~bits + 1)) - 1);
-                lobes[to] = lobe_at(w * 64 + static_cast<std::uint32_t>(bit), at);
-                if (maps != nullptr) {
-                    maps[to] =
-                        *reinterpret_cast<const MapSums*>(sums.maps + at * DenseLobe::kMapWords);
-                }
-                ++to;
+        block.materials.for_each([&](std::uint32_t material) {
+            const std::size_t at = std::size_t{plane++} * kBlockCells + cell;
+            if (sums.weight_at(at) == 0) return;
+            lobes[to] = lobe_at(material, at);
+            if (maps != nullptr) {
+                maps[to] = *reinterpret_cast<const MapSums*>(sums.maps + at * DenseLobe::kMapWords);
             }
-        }
+            ++to;
+        });
     }
     HEDDLE_HD DirectionSums lobe_at(std::uint32_t material, std::size_t at) const {
         DirectionSums out;
         const std::uint64_t* words = sums.lobes + at * DenseLobe::kLobeWords;
-        for (int k = 0; k < 6; ++k) out.moment[k] = static_cast<std::int64_t>(words[k]);
-        out.weight = static_cast<std::int64_t>(words[6]);
+        for (int k = 0; k < 6; ++k) {
+            out.moment[k] = static_cast<std::int64_t>(words[LobeField::Moment + k]);
+        }
+        out.weight = static_cast<std::int64_t>(words[LobeField::Weight]);
         out.material = material;
-        out.normals = (settings.normals[material / 64] >> (material % 64) & 1u) != 0;
+        out.normals = options.normals.has(material);
         return out;
     }
 };

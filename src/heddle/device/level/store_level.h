@@ -112,7 +112,7 @@ template <typename Exec>
 void store_level_arrays(Exec& exec,
                         const LevelArrays& level,
                         std::size_t blocks,
-                        const StoreSettings& settings,
+                        const FitOptions& settings,
                         StoredLevel& out) {
     exec.set_stage("store");
     out.level = level.level;

@@ -2,24 +2,18 @@
 
 #include <heddle/device/level/host_buffer.h>
 #include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxelize/block/fit_options.h>
 
 #include <cstddef>
 #include <cstdint>
 
 namespace heddle {
 
-/// What of a level is stored.
-struct StoreSettings {
-    int subvoxels = 8; ///< of level 0, per voxel axis
-    int max_lobes = 3; ///< K
-    VoxelGridFields fields;
-};
-
 /// What is stored of a level's voxels in a batch of blocks, on the host: as in the arrays of
 /// VoxelBlock, block after block.
 struct StoredLevel {
     int level = 0;
-    StoreSettings settings;
+    FitOptions settings;
     HostBuffer<std::uint64_t> active;                  ///< 8 words a leaf (LeafCells)
     HostBuffer<std::uint32_t> first_voxel, first_lobe; ///< per leaf, and the end
     HostBuffer<Coverage> coverage;

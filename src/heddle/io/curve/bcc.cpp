@@ -55,7 +55,7 @@ BccHeader read_header(ByteReader& file) {
     h.up_axis = file.u8("up axis");
     h.curves = file.u64("curve count");
     h.points = file.u64("point count");
-    file.skip(1, kInfoBytes, "info"); // text by the format, garbage in files of some programs
+    file.skip(1, kInfoBytes, "info"); // text in the format's definition, garbage in some files
     if (h.curves == 0 || h.points == 0) {
         file.fail(h.curves == 0 ? 8 : 16, str("holds no ", h.curves == 0 ? "curves" : "points"),
                   "export it again");
@@ -65,7 +65,7 @@ BccHeader read_header(ByteReader& file) {
     return h;
 }
 
-/// Reads one curve's points behind those that are there; the header's total is never passed.
+/// Appends the points of one curve to the set; the header's total is never exceeded.
 void read_curve(ByteReader& file, std::uint64_t curve, CurveSet& set, ProblemList& problems) {
     const std::uint64_t at = file.offset();
     const std::int64_t signed_count = file.i32("point count of a curve");
@@ -75,7 +75,7 @@ void read_curve(ByteReader& file, std::uint64_t curve, CurveSet& set, ProblemLis
     if (count > set.points.size() - begin) {
         file.fail(at,
                   str("curve ", curve, " has ", count, " points, the header's ", set.points.size(),
-                      " points leave ", set.points.size() - begin),
+                      " points leave it ", set.points.size() - begin),
                   "export it again");
     }
     check_point_count(set.basis, closed, curve, count, at, problems);
@@ -87,14 +87,14 @@ void read_curve(ByteReader& file, std::uint64_t curve, CurveSet& set, ProblemLis
     set.first.push_back(begin + count);
 }
 
-/// Opens the cubic curves whose closing span is an artefact, and returns how many.
+/// Opens the cubic curves whose closing span is an error of the file, and returns how many.
 ///
-/// Two of the 22 yarns of Yuksel's tea_cozy.bcc are marked closed with their ends on opposite sides
-/// of the cozy, 100 times their longest step apart; drawn as marked they cross it as taut strings.
-/// A cubic that is uniform otherwise has no use for such a step; a polyline may have one and is
-/// left alone.
+/// Two of the 22 yarns of Yuksel's tea_cozy.bcc are marked closed although their ends are on
+/// opposite sides of the cozy, 100 times their longest step apart; if drawn as marked, they cross
+/// it as taut strings. An otherwise uniform cubic has no such step; a polyline may have one and is
+/// not changed.
 std::uint64_t open_false_closures(CurveSet& set) {
-    constexpr float kFarthest = 16.0f; // times the longest step; real closures have at most 1.1
+    constexpr float kFarthest = 16.0f; // times the longest step; true closures have at most 1.1
     if (set.basis == Basis::Linear) return 0;
     std::uint64_t opened = 0;
     for (std::size_t c = 0; c < set.curve_count(); ++c) {
@@ -116,11 +116,11 @@ std::string describe_up_axis(std::uint8_t axis) {
     return str("up axis is ", "xyz"[axis], "; coordinates are as in the file");
 }
 
+[[noreturn]] void refuse(const std::string& what) {
+    throw Error(ErrorCode::InvalidArgument, what);
+}
+
 void check_writable(const CurveSet& set) {
-    const auto refuse = [](const std::string& what) {
-        throw Error(ErrorCode::InvalidArgument, what);
-    };
-    if (set.curve_count() == 0) refuse("there are no curves to write to a .bcc file");
     for (std::size_t c = 0; c < set.curve_count(); ++c) {
         const std::uint64_t n = set.first[c + 1] - set.first[c];
         const std::uint64_t least = min_point_count(set.basis, set.is_closed(c));
@@ -129,6 +129,32 @@ void check_writable(const CurveSet& set) {
             refuse(str("curve ", c, " has ", n, " points, a .bcc file of its kind takes ", least,
                        " to ", kMost));
         }
+    }
+}
+
+/// The counts of the header for sets that can be stored in one file.
+BccHeader header_of(std::span<const CurveSet> sets) {
+    BccHeader header;
+    for (const CurveSet& set : sets) {
+        if (set.curve_count() == 0) continue;
+        check_writable(set);
+        if (header.curves > 0 && set.basis != header.basis)
+            refuse("the curves have several bases, a .bcc file has one");
+        header.basis = set.basis;
+        header.curves += set.curve_count();
+        header.points += set.points.size();
+    }
+    if (header.curves == 0) refuse("there are no curves to write to a .bcc file");
+    return header;
+}
+
+void write_curves(const CurveSet& set, OutputFile& file) {
+    for (std::size_t c = 0; c < set.curve_count(); ++c) {
+        const auto points =
+            std::span(set.points).subspan(set.first[c], set.first[c + 1] - set.first[c]);
+        const auto n = static_cast<std::int32_t>(points.size());
+        file.write_value(set.is_closed(c) ? -n : n);
+        file.write_array(std::span<const Vec3f>(points));
     }
 }
 
@@ -161,40 +187,38 @@ Geometry read_bcc(const std::string& path, const CurveReadOptions& options) {
     Geometry geometry = make_curve_geometry(std::move(set), path, "yarn");
     geometry.notes.push_back(describe_up_axis(header.up_axis));
     if (opened > 0) {
-        geometry.notes.push_back(str(
-            opened, opened == 1 ? " curve is" : " curves are",
-            " marked closed with the ends more than 16 of the longest steps apart, read as open"));
+        geometry.notes.push_back(
+            str(opened, opened == 1 ? " curve is" : " curves are",
+                " marked closed but have ends more than 16 longest steps apart; read as open"));
     }
     note_trailing_bytes(file, geometry);
     settle_yarn_radius(options, geometry);
     return geometry;
 }
 
-void write_bcc(const CurveSet& set, const std::string& path, int up_axis) {
-    check_writable(set);
+void write_bcc(std::span<const CurveSet> sets, const std::string& path, int up_axis) {
+    const BccHeader header = header_of(sets);
     if (up_axis < 0 || up_axis > 2) {
         throw Error(ErrorCode::InvalidArgument, str("up axis is ", up_axis, ", it must be 0 to 2"));
     }
     OutputFile file(path);
     file.write("BCC\x44", 4);
     for (const BasisName& b : kBasisNames) {
-        if (b.basis == set.basis) file.write(b.name, 2);
+        if (b.basis == header.basis) file.write(b.name, 2);
     }
     file.write_value(std::uint8_t{3});
     file.write_value(static_cast<std::uint8_t>(up_axis));
-    file.write_value<std::uint64_t>(set.curve_count());
-    file.write_value<std::uint64_t>(set.points.size());
+    file.write_value<std::uint64_t>(header.curves);
+    file.write_value<std::uint64_t>(header.points);
     constexpr std::array<char, kInfoBytes> kInfo{"Heddle"};
     file.write_array(std::span<const char>(kInfo));
     static_assert(4 + 2 + 1 + 1 + 8 + 8 + kInfoBytes == kHeaderBytes);
-    for (std::size_t c = 0; c < set.curve_count(); ++c) {
-        const auto points =
-            std::span(set.points).subspan(set.first[c], set.first[c + 1] - set.first[c]);
-        const auto n = static_cast<std::int32_t>(points.size());
-        file.write_value(set.is_closed(c) ? -n : n);
-        file.write_array(std::span<const Vec3f>(points));
-    }
+    for (const CurveSet& set : sets) write_curves(set, file);
     file.commit();
+}
+
+void write_bcc(const CurveSet& set, const std::string& path, int up_axis) {
+    write_bcc(std::span(&set, 1), path, up_axis);
 }
 
 } // namespace heddle

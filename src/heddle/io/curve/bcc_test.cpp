@@ -18,7 +18,7 @@ std::string header(const std::string& type, std::uint64_t curves, std::uint64_t 
            std::string(40, static_cast<char>(0xfe)); // info: garbage
 }
 
-/// `n` points along x from the origin, behind a count that says `count`.
+/// `n` points along x from the origin, after a count of `count`.
 std::string curve(std::int32_t count, int n, float y = 0.0f) {
     std::string out = bytes(count);
     for (int i = 0; i < n; ++i) out += bytes(static_cast<float>(i), y, 0.0f);
@@ -91,6 +91,44 @@ TEST(Bcc, EveryBasisSurvivesWritingAndReading) {
         write_bcc(set, folder.file("b.bcc"));
         EXPECT_TRUE(read_bcc(folder.file("b.bcc")).curves[0].closed.empty());
     }
+}
+
+/// Curves of these lengths; the coordinates of their points are consecutive numbers from `from`.
+CurveSet counting_set(const std::vector<std::uint64_t>& lengths, float from) {
+    CurveSet set;
+    set.first = {0};
+    for (const std::uint64_t n : lengths) {
+        for (std::uint64_t i = 0; i < n; ++i) {
+            set.points.push_back({from, 0.5f * static_cast<float>(i), 0.0f});
+            from += 1.0f;
+        }
+        set.first.push_back(set.points.size());
+    }
+    set.basis = Basis::CatmullRom;
+    return set;
+}
+
+TEST(Bcc, AllSetsAreWrittenOneAfterTheOther) {
+    const TempFolder folder;
+    const std::vector<CurveSet> sets{
+        counting_set({7, 7, 7}, 0.0f), {}, counting_set({4, 9}, 50.0f)};
+    write_bcc(sets, folder.file("a.bcc"));
+    const Geometry g = read_bcc(folder.file("a.bcc"));
+    ASSERT_EQ(g.curves.size(), 1u);
+    EXPECT_EQ(g.curves[0].first, (std::vector<std::uint64_t>{0, 7, 14, 21, 25, 34}));
+    std::vector<Vec3f> points = sets[0].points;
+    points.insert(points.end(), sets[2].points.begin(), sets[2].points.end());
+    EXPECT_EQ(g.curves[0].points, points);
+    EXPECT_EQ(std::filesystem::file_size(folder.file("a.bcc")), 64u + 5 * 4 + 34 * 12);
+}
+
+TEST(Bcc, SetsOfSeveralBasesAreNotWritten) {
+    const TempFolder folder;
+    std::vector<CurveSet> sets{counting_set({7}, 0.0f), counting_set({7}, 9.0f)};
+    sets[1].basis = Basis::Linear;
+    expect_error(ErrorCode::InvalidArgument, "several bases",
+                 [&] { write_bcc(sets, folder.file("a.bcc")); });
+    EXPECT_EQ(folder.count_entries(), 0u);
 }
 
 TEST(Bcc, ACubicWhoseEndsAreFarApartIsNotClosed) {

@@ -15,12 +15,12 @@ namespace {
 
 constexpr const char* kRadiusOption = "set it with --yarn-radius";
 
-/// Rounded to what the note shows: the number in the note gives the same result as an option.
+/// Rounds to the digits that notes show: as an option, the number in a note gives the same result.
 float round_to_three_digits(float x) {
     return std::strtof(three_digits(x).c_str(), nullptr);
 }
 
-/// True when the option settled it.
+/// Returns true if the option sets the radius.
 bool take_radius_option(const CurveReadOptions& options, CurveSet& set) {
     if (options.radius <= 0.0f) return false;
     set.radius.clear();
@@ -128,12 +128,12 @@ void settle_yarn_radius(const CurveReadOptions& options, Geometry& geometry) {
                                      kRadiusOption));
         return;
     }
-    // no yarn beside it: hundredth of its extent is thin enough to be a yarn and thick enough to
-    // see
+    // No yarn is beside it: a hundredth of its extent is thin enough for a yarn and thick enough to
+    // be visible.
     set.default_radius = round_to_three_digits(40.0f * default_hair_radius(set));
     geometry.notes.push_back(
         str("radius ", three_digits(set.default_radius),
-            " is 1/100 of the longest side: no neighbouring yarns to estimate it from; ",
+            " is 1/100 of the longest side: there are no neighbouring yarns to estimate it from; ",
             kRadiusOption));
 }
 

@@ -10,16 +10,16 @@ namespace {
 using testing::expect_error;
 using testing::find_data;
 
-/// What an independent reader in another language (inspect_curves.py) counts in a file of real
+/// The counts of an independent reader in another language (inspect_curves.py) for a file of real
 /// data.
 struct Expected {
     const char* name;
     std::size_t curves;
     std::size_t points;
     std::size_t closed;
-    double polygon_length; ///< of control polygons, closing steps included
+    double polygon_length; ///< of control polygons, including closing steps
     float radius;          ///< from the file; 0: estimated, about 0.1
-    /// The test's name in CTest: not the bytes, which hold a pointer.
+    /// The test's name in CTest; by default it would be the bytes, which contain a pointer.
     friend std::ostream& operator<<(std::ostream& out, const Expected& e) { return out << e.name; }
 };
 
@@ -52,7 +52,7 @@ INSTANTIATE_TEST_SUITE_P(
         Expected{"yarn/bcc/cable_work_pattern.bcc", 8, 130083, 0, 20353.1, 0},
         Expected{"yarn/bcc/flame_ribbing_pattern.bcc", 1, 49745, 0, 10858.2, 0},
         Expected{"yarn/bcc/sweater_flame_ribbing.bcc", 253, 271978, 253, 57491.4, 0},
-        Expected{"yarn/bcc/tea_cozy.bcc", 22, 184159, 20, 37418.5, 0}, // two false closures
+        Expected{"yarn/bcc/tea_cozy.bcc", 22, 184159, 20, 37418.5, 0}, // 2 wrongly closed
         Expected{"yarn/bcc-modified/glove.bcc", 70, 58537, 70, 13925.1, 0},
         Expected{"yarn/bcc-modified/knittubeinit.bcc", 39, 18228, 39, 4730.07, 0},
         Expected{"hair/straight.hair", 10000, 160000, 0, 781535, 0.05f},

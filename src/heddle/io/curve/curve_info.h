@@ -7,23 +7,23 @@
 
 namespace heddle {
 
-/// What `heddle info` says of a set of curves.
+/// The figures of `heddle info` for a set of curves.
 struct CurveStats {
     std::uint64_t curves = 0;
-    std::uint64_t points = 0; ///< control points, phantom end points included
-    std::uint64_t spans = 0;  ///< pieces that are drawn
+    std::uint64_t points = 0; ///< control points, including end points that only give tangents
+    std::uint64_t spans = 0;  ///< spans that are drawn
     std::uint64_t closed = 0; ///< closed curves
-    double length = 0.0;      ///< arc length of what is drawn, scene units
+    double length = 0.0;      ///< arc length of the spans, scene units
     float radius_min = 0.0f;  ///< over all control points, scene units
     float radius_max = 0.0f;  ///< scene units
-    Bounds bounds;            ///< holds the centrelines (their Bezier hulls), radius not added
+    Bounds bounds;            ///< contains the centrelines (their Bezier hulls), without the radius
 };
 
-/// Counts, length and extent of the curves that `set` describes, not of its control polygons.
+/// Measures counts, length and extent of the curves of `set`, not of its control polygons.
 ///
-/// Length: 5-point Gauss-Legendre on every span; exact for straight ones, within 2e-6 on the shared
-/// yarn files (four chords a span: 2e-3). Bounds: the hull of every span's Bezier form, which holds
-/// the curve and is a few percent of a span larger at most.
+/// Length: 5-point Gauss-Legendre on every span; exact for straight ones, within 2e-6 on the sample
+/// yarn files (four chords per span: 2e-3). Bounds: the hull of every span's Bezier form, which
+/// contains the curve and is larger by at most a few percent of a span.
 /// Parallel; the same bits for any thread count.
 [[nodiscard]] CurveStats measure(const CurveSet& set);
 

@@ -24,7 +24,7 @@ CurveSet circle(Basis basis, int points) {
     return set;
 }
 
-/// Length by very many chords.
+/// The length as the sum of very many chords.
 double chord_length(const CurveSet& set) {
     double sum = 0.0;
     visit_spans(set, 0, set.points.size(), [&](std::size_t curve, std::size_t span) {

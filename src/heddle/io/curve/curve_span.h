@@ -8,18 +8,18 @@
 
 namespace heddle {
 
-/// One piece of a curve as a cubic Bezier: its four control points, scene units.
+/// One span of a curve as a cubic Bezier: its four control points, scene units.
 using BezierSpan = std::array<Vec3d, 4>;
 
-/// Index into `set.points` of the point `offset` places after the first one of span `span`.
-/// Closed curves wrap; the spans of a closed cubic start at its point 0.
+/// Index into `set.points` of the point that is `offset` points after the first one of span `span`.
+/// Closed curves wrap around; the first span of a closed cubic starts at its point 0.
 [[nodiscard]] inline std::size_t
 span_point(const CurveSet& set, std::size_t curve, std::size_t span, std::size_t offset) {
     const std::size_t n = set.first[curve + 1] - set.first[curve];
     std::size_t local = span + offset;
     if (set.is_closed(curve)) {
         if (set.basis != Basis::Linear) local += n - 1;
-        while (local >= n) local -= n; // once or twice; a 64-bit % costs more than the whole span
+        while (local >= n) local -= n; // at most twice; a 64-bit % costs more than the whole span
     }
     return set.first[curve] + local;
 }
@@ -57,7 +57,7 @@ bezier_span(const CurveSet& set, std::size_t curve, std::size_t span) {
 }
 
 /// Calls visit(curve, span) for every span that starts at a point in [begin, end) of `set.points`.
-/// Over chunks of points, that visits every span of the set once: even work for one long curve and
+/// Chunks of points then visit every span of the set once, with even work for one long curve and
 /// for many short ones.
 template <typename Visit>
 void visit_spans(const CurveSet& set, std::size_t begin, std::size_t end, const Visit& visit) {

@@ -17,20 +17,20 @@ namespace {
 
 constexpr std::size_t kGrain = 4096;
 constexpr std::size_t kMaxProbes = 4096;
-constexpr int kMaxRounds = 24; // reach grows from one chord to 2^23 chords
-// way along / straight way; pi/2 is a half circle. From 1.6 to 4 give the six shared .bcc files the
-// same radius.
+constexpr int kMaxRounds = 24; // the search radius grows from one chord to 2^23 chords
+// Arc length / straight distance; pi/2 is a half circle. All values from 1.6 to 4 give the six
+// sample .bcc files the same radius.
 constexpr double kWayAround = 2.0;
-constexpr double kMaxPieces = 64; // of one chord: bounds the time that an outlier can take
+constexpr double kMaxPieces = 64; // per chord: bounds the time for an outlier
 
-/// A place on a centreline whose nearest neighbour is looked for.
+/// A point of a centreline whose nearest neighbour is searched.
 struct Probe {
     Vec3d position;
     std::size_t curve = 0;
-    double along = 0.0; ///< way from the curve's start, scene units
+    double along = 0.0; ///< arc length from the curve's start, scene units
 };
 
-/// Smallest distance offered so far, from any thread. The bits of doubles >= 0 order as they do.
+/// The smallest distance so far, of all threads. The bits of doubles >= 0 sort like the doubles.
 class Nearest {
 public:
     [[nodiscard]] double get() const { return std::bit_cast<double>(bits_.load()); }
@@ -46,19 +46,19 @@ private:
         std::bit_cast<std::uint64_t>(std::numeric_limits<double>::infinity())};
 };
 
-/// A straight piece of a centreline. `along` runs evenly over a curve's spans: close enough to tell
-/// a neighbour from the same stretch, and it needs no table of arc lengths.
+/// A straight piece of a centreline. `along` is linear over the spans of a curve: accurate enough
+/// to tell a neighbour from the probe's own part, and it needs no table of arc lengths.
 struct Chord {
     Vec3d a, b;
     std::size_t curve = 0;
     double along_a = 0.0, along_b = 0.0;
 };
 
-/// Which probes a piece of yarn has to be compared with: cells of twice the reach, hashed; each
-/// probe stands in every cell (8 at most) that a piece within reach of it can have its middle in.
+/// Finds the probes that a piece of yarn is compared with, by hashed cells of twice the reach. A
+/// probe is in each cell (at most 8) that can contain the middle of a piece within its reach.
 class ProbeGrid {
 public:
-    /// @param wanted  per probe, whether it is still searched for
+    /// @param wanted  per probe: whether its search continues
     ProbeGrid(const std::vector<Probe>& probes, const std::vector<char>& wanted, double reach)
         : cell_(2.0 * reach), mask_(std::bit_ceil(probes.size() * 16) - 1) {
         std::vector<std::pair<std::size_t, std::uint32_t>> entries;
@@ -92,7 +92,7 @@ public:
 
 private:
     [[nodiscard]] Vec3<std::int64_t> cell_of(Vec3d p) const {
-        const auto cell = [&](double x) { // clamped: a far outlier must not leave the integers
+        const auto cell = [&](double x) { // clamped: a far outlier must not overflow
             return static_cast<std::int64_t>(std::clamp(std::floor(x / cell_), -0x1p60, 0x1p60));
         };
         return {cell(p.x), cell(p.y), cell(p.z)};
@@ -105,7 +105,7 @@ private:
 
     double cell_;
     std::size_t mask_;
-    std::vector<std::uint32_t> start_; ///< per bucket, into `probe_`
+    std::vector<std::uint32_t> start_; ///< per bucket, first index into `probe_`
     std::vector<std::uint32_t> probe_;
 };
 
@@ -129,8 +129,8 @@ std::vector<double> measure_span_lengths(const CurveSet& set) {
     return span_length;
 }
 
-/// Probes at jittered places: a fixed stride would see every loop of a knit at the same point of
-/// it.
+/// Probes at jittered points: with a fixed stride all loops of a knit would have theirs at the same
+/// point.
 std::vector<Probe> place_probes(const CurveSet& set, const std::vector<double>& span_length) {
     const std::size_t n = set.points.size();
     const std::size_t count = std::min(n, kMaxProbes);
@@ -146,7 +146,7 @@ std::vector<Probe> place_probes(const CurveSet& set, const std::vector<double>& 
     return probes;
 }
 
-/// Distance from a probe to a piece; infinity where that is the probe's own stretch.
+/// The distance from a probe to a piece; infinity for the probe's own part.
 double distance_to_other(const CurveSet& set,
                          const std::vector<double>& span_length,
                          const Probe& probe,
@@ -163,13 +163,13 @@ double distance_to_other(const CurveSet& set,
             span_length[piece.curve] * static_cast<double>(set.span_count(piece.curve));
         way = std::min(way, around - way);
     }
-    // a span more: at the probe itself both ways are 0 but for rounding
+    // one more span: at the probe itself both lengths are 0, except for rounding
     return way > kWayAround * d + span_length[piece.curve]
                ? d
                : std::numeric_limits<double>::infinity();
 }
 
-/// Calls visit(piece) for the span's two chords, cut into pieces at most `longest` long.
+/// Calls visit(piece) for the span's two chords, divided into pieces at most `longest` long.
 template <typename Visit>
 void visit_pieces(const CurveSet& set,
                   std::size_t curve,
@@ -192,18 +192,18 @@ void visit_pieces(const CurveSet& set,
     }
 }
 
-/// Runs every chord of the set past the probes: one round finds all neighbours within `reach`.
+/// Compares every chord of the set with the probes: one round finds all neighbours within `reach`.
 void search_within(const CurveSet& set,
                    const std::vector<double>& span_length,
                    double reach,
                    const std::vector<Probe>& probes,
                    std::vector<Nearest>& nearest) {
     std::vector<char> wanted(probes.size());
-    for (std::size_t i = 0; i < probes.size(); ++i) { // the round before searched half as far
+    for (std::size_t i = 0; i < probes.size(); ++i) { // the previous round searched half as far
         wanted[i] = nearest[i].get() > 0.5 * reach ? 1 : 0;
     }
-    // a piece is at most `reach` long, so its middle is within 1.5 reach of a probe that it
-    // concerns
+    // a piece is at most `reach` long, so its middle is within 1.5 reach of the probes within reach
+    // of the piece
     const ProbeGrid grid(probes, wanted, 1.5 * reach);
     parallel_chunks(set.points.size(), kGrain, [&](std::size_t begin, std::size_t end) {
         visit_spans(set, begin, end, [&](std::size_t curve, std::size_t span) {
@@ -241,7 +241,7 @@ float estimate_radius(const CurveSet& set) {
                        [](const Nearest& n) { return n.get(); });
         const auto middle = distance.begin() + static_cast<std::ptrdiff_t>(distance.size() / 2);
         std::nth_element(distance.begin(), middle, distance.end());
-        // distances up to `reach` are exact, and the others are larger
+        // distances up to `reach` are exact, others are larger
         if (*middle <= reach) return static_cast<float>(0.5 * *middle);
         if (reach > diagonal) break;
     }

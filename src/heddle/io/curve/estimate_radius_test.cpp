@@ -9,7 +9,7 @@
 namespace heddle {
 namespace {
 
-/// `rows` straight yarns along x, `distance` apart, of points 0.3 apart.
+/// `rows` straight yarns along x, `distance` apart, with a point every 0.3.
 CurveSet stripes(int rows, int points, float distance) {
     CurveSet set;
     set.first.push_back(0);
@@ -25,7 +25,7 @@ CurveSet stripes(int rows, int points, float distance) {
 
 TEST(EstimateRadius, IsHalfTheDistanceOfParallelYarns) {
     for (const float distance :
-         {0.01f, 0.2f, 1.0f, 30.0f}) { // from far below the points' to far above
+         {0.01f, 0.2f, 1.0f, 30.0f}) { // from far below the distance of points to far above
         EXPECT_NEAR(estimate_radius(stripes(10, 60, distance)), 0.5f * distance, 0.001f * distance);
     }
 }
@@ -43,8 +43,8 @@ TEST(EstimateRadius, OneYarnThatRunsBackAndForthIsItsOwnNeighbour) {
 }
 
 TEST(EstimateRadius, IsTheMedianAndNoProbeIsItsOwnNeighbour) {
-    // one yarn in 101 rows whose distances grow from 0.2 to 0.4: the median row is 0.3 from its last.
-    // Probes taken for their own neighbours, at distance 0, would move the median.
+    // One yarn in 101 rows; their distance grows from 0.2 to 0.4: the median row is 0.3 from the
+    // previous one. Probes that were their own neighbours, at distance 0, would move the median.
     CurveSet set;
     float y = 0.0f;
     for (int row = 0; row < 101; ++row) {
@@ -58,7 +58,7 @@ TEST(EstimateRadius, IsTheMedianAndNoProbeIsItsOwnNeighbour) {
 }
 
 TEST(EstimateRadius, ABendIsNotItsOwnNeighbour) {
-    CurveSet set; // one circle: half of the way around is never twice the straight way
+    CurveSet set; // one circle: an arc is never twice as long as its chord
     for (int i = 0; i < 100; ++i) {
         const float a = 0.0628318531f * static_cast<float>(i);
         set.points.push_back({std::cos(a), std::sin(a), 0});

@@ -26,7 +26,7 @@ struct HairHeader {
     std::uint32_t strands = 0;
     std::uint32_t points = 0;
     std::uint32_t arrays = 0;
-    std::uint32_t segments = 0; ///< of every strand without a segments array
+    std::uint32_t segments = 0; ///< of every strand, if there is no segments array
     float thickness = 0.0f;     ///< a diameter, scene units
     float transparency = 0.0f;
     Vec3f color;
@@ -57,14 +57,14 @@ HairHeader read_header(ByteReader& file) {
     return h;
 }
 
-/// Offsets of every strand's first point, from the segments array or the default.
+/// The offset of every strand's first point, from the segments array or the default.
 std::vector<std::uint64_t> read_offsets(ByteReader& file, const HairHeader& h) {
     const std::uint64_t at = file.offset();
     std::vector<std::uint16_t> segments;
     if (h.has(kSegments)) {
         segments = file.array<std::uint16_t>(h.strands, "segments");
     } else if (std::uint64_t{h.strands} * (std::uint64_t{h.segments} + 1) != h.points) {
-        // before memory is taken for the offsets: nothing else bounds the strand count here
+        // before memory is allocated for the offsets: nothing else limits the strand count here
         file.fail(16,
                   str(h.strands, " strands of ", h.segments, " segments do not make ", h.points,
                       " points"),
@@ -114,7 +114,7 @@ std::vector<std::uint32_t>
 read_colors(ByteReader& file, const HairHeader& h, ProblemList& problems) {
     file.require(h.points, sizeof(Vec3f), "colours");
     std::vector<std::uint32_t> color(h.points);
-    std::vector<Vec3f> part(std::min<std::size_t>(h.points, 1u << 14)); // not the array twice
+    std::vector<Vec3f> part(std::min<std::size_t>(h.points, 1u << 14)); // not the whole array twice
     for (std::size_t begin = 0; begin < color.size(); begin += part.size()) {
         const std::uint64_t at = file.offset();
         const std::size_t n = std::min(part.size(), color.size() - begin);
@@ -131,13 +131,13 @@ read_colors(ByteReader& file, const HairHeader& h, ProblemList& problems) {
     return color;
 }
 
-/// Removes the strands that have one point; returns how many.
+/// Removes the strands with a single point; returns how many.
 std::uint64_t drop_single_points(CurveSet& set) {
     std::uint64_t kept = 0;
     std::uint64_t to = 0;
     const std::uint64_t strands = set.curve_count();
     for (std::uint64_t s = 0; s < strands; ++s) {
-        const std::uint64_t begin = set.first[s]; // read before first[kept] may overwrite it
+        const std::uint64_t begin = set.first[s]; // first[kept] may overwrite it
         const std::uint64_t end = set.first[s + 1];
         if (end - begin < 2) continue;
         for (std::uint64_t p = begin; p < end; ++p, ++to) {
@@ -155,8 +155,8 @@ std::uint64_t drop_single_points(CurveSet& set) {
     return strands - kept;
 }
 
-/// The file's thickness where it has a usable one, else the default for hair; the option before
-/// both.
+/// Sets the radius: the option's, else the file's thickness if it is usable, else the default for
+/// hair.
 void settle_radius(const HairHeader& h, const CurveReadOptions& options, Geometry& geometry) {
     CurveSet& set = geometry.curves.front();
     const bool some =
@@ -177,7 +177,7 @@ void settle_radius(const HairHeader& h, const CurveReadOptions& options, Geometr
 void settle_color(const HairHeader& h, Geometry& geometry) {
     Material& material = geometry.materials.front();
     if (h.has(kColors)) {
-        material.albedo = {1.0f, 1.0f, 1.0f}; // the points' colours stand alone
+        material.albedo = {1.0f, 1.0f, 1.0f}; // the colours of the points are used alone
     } else if (is_finite(h.color)) {
         for (int a = 0; a < 3; ++a) material.albedo[a] = std::clamp(h.color[a], 0.0f, 1.0f);
     }

@@ -30,7 +30,7 @@ std::string floats(int n, float first = 0.0f) {
     return out;
 }
 
-/// Two strands of 3 and 2 points with every array.
+/// Two strands of 3 and 2 points, with every array.
 std::string full_file() {
     return header(2, 5, kAll) + bytes(std::uint16_t{2}, std::uint16_t{1}) + floats(15) +
            bytes(0.0f, 0.2f, 0.4f, 0.6f, 0.8f) + floats(5) +

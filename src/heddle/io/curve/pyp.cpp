@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint64_t kMaxPoints = std::uint64_t{1} << 31; // 24 GiB of points
 constexpr std::int64_t kNone = -1;
 
-/// A vertex in one of the infinitely many tiles.
+/// A vertex in one of infinitely many tiles.
 struct Node {
     std::int64_t vertex = kNone;
     std::int64_t x = 0;
@@ -33,7 +33,7 @@ public:
         set_.basis = Basis::CatmullRom;
         set_.first.push_back(0);
         const auto vertices = static_cast<std::int64_t>(pattern_.vertices.size());
-        for (const bool open : {true, false}) { // what is left after the open yarns are rings
+        for (const bool open : {true, false}) { // yarns that remain after the open ones are rings
             for (std::int64_t i = 0; i < nx_ * ny_ * vertices; ++i) {
                 const std::int64_t tile = i / vertices;
                 const Node node{i % vertices, tile % nx_, tile / nx_};
@@ -70,21 +70,21 @@ private:
         set_.first.push_back(set_.points.size());
         set_.closed.push_back(closed ? 1 : 0);
     }
-    /// The node's position, or where a yarn that ends at `last` would go on: mirrored in its end.
+    /// The node's position; if the yarn ends at `last`, the point before it mirrored at `last`.
     [[nodiscard]] Vec3f phantom(const Node& n, Vec3f last, Vec3f before) const {
         return n.vertex != kNone ? position(n) : last * 2.0f - before;
     }
 
-    /// The yarn that enters the patch, or begins, at `start`.
+    /// Adds the yarn that starts at `start`, or enters the patch there.
     void add_open(const Node& start) {
         const std::size_t begin = set_.points.size();
-        set_.points.emplace_back(); // the phantom's place
+        set_.points.emplace_back(); // the first point only gives a tangent
         Node n = start;
         for (; inside(n); n = step(n, pattern_.next)) {
             seen(n) = 1;
             add(n);
         }
-        if (n.vertex != kNone) { // it leaves: the edge across the border belongs to this patch
+        if (n.vertex != kNone) { // it leaves; the edge across the border is part of this patch
             add(n);
             n = step(n, pattern_.next);
         }
@@ -99,7 +99,7 @@ private:
         finish(false);
     }
 
-    /// The yarn through `start` that never leaves the patch.
+    /// Adds the yarn through `start` that never leaves the patch.
     void add_ring(const Node& start) {
         const std::size_t begin = set_.points.size();
         for (Node n = start; !seen(n); n = step(n, pattern_.next)) {

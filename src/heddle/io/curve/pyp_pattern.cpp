@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kColumns = 4; // of every section that is read
 
-/// One row of numbers and where it stands.
+/// One row of numbers and its line.
 struct Row {
     std::array<double, kColumns> value{};
     std::size_t count = 0;
@@ -41,7 +41,7 @@ private:
     }
 
     void parse_sections() {
-        std::vector<Row>* section = nullptr; // nullptr: its rows are passed over
+        std::vector<Row>* section = nullptr; // nullptr: its rows are skipped
         std::int64_t line = 0;
         for (std::size_t at = 0; at < text_.size();) {
             ++line;
@@ -142,7 +142,7 @@ private:
 
     void add_edge(const Row& row, PypPattern& p) const {
         const double last = static_cast<double>(p.vertices.size() - 1);
-        constexpr double kFar = 1e6; // tiles; keeps sums of steps far inside 64 bits
+        constexpr double kFar = 1e6; // tiles; sums of steps cannot overflow 64 bits
         const std::int64_t a = to_integer(row, 0, 0.0, last, "vertex");
         const std::int64_t b = to_integer(row, 1, 0.0, last, "vertex");
         const std::int64_t dx = to_integer(row, 2, -kFar, kFar, "tile step");

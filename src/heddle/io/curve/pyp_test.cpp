@@ -12,7 +12,7 @@ using testing::expect_error;
 using testing::has_note;
 using testing::TempFolder;
 
-/// A yarn of three vertices along x that runs on into the next tile; period 3 x 2.
+/// A yarn of three vertices along x that continues in the next tile; period 3 x 2.
 const std::string kStraight = "*pattern # px py radius num_vertedges\n3 2 0.25 3\n\n"
                               "*Q # dofs: x y z t\n0 0 0 0.5\n1 0 0.5 0\n2 0 0 0\n\n"
                               "*E # edges [v0, v1, dx, dy]\n2 0 1 0\n0 1 0 0\n1 2 0 0\n\n"
@@ -136,7 +136,7 @@ TEST(Pyp, AnotherKindOfFileIsSaidToBeOne) {
 }
 
 TEST(Pyp, TruncationsAndFlippedBitsNeverCrash) {
-    // text cut at a row's end may still be a pattern: a crash or a foreign exception is the failure
+    // text truncated after a row may still be a pattern: only a crash or a foreign exception fails
     const TempFolder folder;
     for (std::size_t n = 0; n < kStraight.size(); ++n) {
         const std::string path = folder.write("a.pyp", kStraight.substr(0, n));

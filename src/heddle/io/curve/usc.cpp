@@ -7,7 +7,7 @@
 namespace heddle {
 namespace {
 
-/// Reads one strand; false when it is too short to draw and was dropped.
+/// Reads one strand; returns false if it is too short to draw and was dropped.
 bool read_strand(ByteReader& file, std::uint64_t strand, CurveSet& set, ProblemList& problems) {
     const std::uint64_t at = file.offset();
     const std::int32_t count = file.i32("point count of a strand");
@@ -46,7 +46,7 @@ Geometry read_usc(const std::string& path, const CurveReadOptions& options) {
     CurveSet set;
     set.basis = Basis::Linear;
     set.first.push_back(0);
-    set.points.reserve(file.remaining() / sizeof(Vec3f)); // a little more than there can be
+    set.points.reserve(file.remaining() / sizeof(Vec3f)); // slightly more than possible
     std::uint64_t dropped = 0;
     ProblemList problems;
     for (std::int32_t s = 0; s < strands; ++s) {

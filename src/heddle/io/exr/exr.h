@@ -8,46 +8,46 @@
 
 namespace heddle {
 
-/// One channel of a picture to be written.
+/// One channel of a picture to write.
 struct ExrChannel {
-    std::string name;              ///< "R", "depth", "tangent.X": a layer and a dot before the name
+    std::string name; ///< "R", "depth", "tangent.X": optionally a layer and a dot first
     std::span<const float> values; ///< width x height, rows from the top
     bool half = true;              ///< stored with 16 bits: 11 of mantissa, at most 65504
 };
 
-/// Names and texts that the file's header keeps beside the picture: camera, samples, command.
+/// Names and texts that the file's header stores: camera, samples, command.
 using ExrAttributes = std::vector<std::pair<std::string, std::string>>;
 
-/// Writes an OpenEXR file, whole or not at all (see OutputFile): scan lines, ZIP compression.
+/// Writes an OpenEXR file, completely or not at all (see OutputFile): scan lines, ZIP compression.
 ///
-/// Half channels are rounded to nearest and clamped to +-65504, so that a bright light does not
-/// become infinite; NaN stays NaN. Memory: the file's bytes, and 2 bytes a pixel and half channel.
+/// Half channels are rounded to the nearest value and clamped to +-65504, so that a bright light
+/// does not become infinite; NaN stays NaN. Memory: the file's bytes, and 2 bytes per half pixel.
 /// @param width, height  px, from 1 to 2^20, together at most 2^28
-/// @param channels       1 to 1024; names differ, have 1 to 255 bytes
-/// @param attributes     texts; names differ, have 1 to 255 bytes, are none of the format's own
-/// @throws Error  InvalidArgument: sizes or names that do not agree; NotFound or CannotWrite where
-///                it cannot be written; OutOfMemory
+/// @param channels       1 to 1024; names differ and have 1 to 255 bytes
+/// @param attributes     texts; names differ, have 1 to 255 bytes and are not the format's own
+/// @throws Error  InvalidArgument: inconsistent sizes or names; NotFound or CannotWrite: the file
+///                cannot be written; OutOfMemory
 void write_exr(const std::string& path,
                std::int32_t width,
                std::int32_t height,
                std::span<const ExrChannel> channels,
                const ExrAttributes& attributes = {});
 
-/// A picture of numbers without bounds.
+/// An image of float values without limits.
 struct FloatImage {
     std::int32_t width = 0;    ///< px
     std::int32_t height = 0;   ///< px
-    std::int32_t channels = 3; ///< of a pixel, next to each other
+    std::int32_t channels = 3; ///< per pixel, interleaved
     std::vector<float> values; ///< width x height x channels, rows from the top
 };
 
-/// R, G and B of an OpenEXR file: scan lines or tiles (the largest level), any compression.
+/// Reads R, G and B of an OpenEXR file: scan lines or tiles (the largest level), any compression.
 ///
-/// A file that holds Y and no R, G, B gives Y three times. The picture is the file's data window.
-/// Values are as stored: NaN and infinities are for the caller to judge. Memory: the file's bytes
-/// and the result.
-/// @throws Error  NotFound; BadFile: cut short, damaged, deep or of several parts, without R, G, B
-///                or Y, larger than 2^28 px or than its bytes can hold; OutOfMemory
+/// A file with Y but no R, G, B returns Y three times. The picture is the file's data window.
+/// Values are as stored: the caller checks for NaN and infinity. Memory: the file's bytes and the
+/// result.
+/// @throws Error  NotFound; BadFile: truncated, damaged, deep or multi-part, without R, G, B or Y,
+///                larger than 2^28 px or than its bytes can hold; OutOfMemory
 [[nodiscard]] FloatImage read_exr_rgb(const std::string& path);
 
 } // namespace heddle

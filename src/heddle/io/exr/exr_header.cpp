@@ -19,12 +19,12 @@ constexpr std::size_t kPreambleBytes = 8; // magic and version
 constexpr std::uint32_t kMagic = 20000630;
 constexpr std::uint32_t kDeepOrParts = 0x1800;
 
-// Deflate shrinks at most 1032 times, the other methods less, and a pixel has two bytes at least.
+// Deflate compresses by at most 1032, the other methods less, and a pixel has at least two bytes.
 // DWA first writes an 8 x 8 block that is constant as one number.
 constexpr std::int64_t kMostPixelsPerByte = 1032;
 constexpr std::int64_t kMostPixelsPerByteDwa = 64 * 1032;
 
-/// A tile may be larger than its picture; OpenEXR takes memory for whole tiles.
+/// A tile may be larger than its picture; OpenEXR allocates whole tiles.
 constexpr std::int64_t kMostTilePixels = std::int64_t{1} << 22;
 
 [[noreturn]] void
@@ -33,7 +33,7 @@ fail(const std::string& path, std::size_t at, const std::string& what, const std
                 {.path = path, .offset = static_cast<std::int64_t>(at)});
 }
 
-/// Walks over one text of the header that ends in a zero byte; returns where the next thing starts.
+/// Skips a zero-terminated text of the header; returns the offset after it.
 std::size_t skip_name(const std::string& bytes, std::size_t at, const std::string& path) {
     const std::size_t end = bytes.find('\0', at);
     if (end == std::string::npos || end - at > 255) {
@@ -42,7 +42,7 @@ std::size_t skip_name(const std::string& bytes, std::size_t at, const std::strin
     return end + 1;
 }
 
-/// Checks that each attribute is as long as it says, and returns where the header ends.
+/// Checks that each attribute has its stated length, and returns the end of the header.
 void check_attributes(const std::string& bytes, const std::string& path) {
     std::size_t at = kPreambleBytes;
     while (true) {
@@ -82,7 +82,7 @@ void check_sizes(const Imf::Header& header, std::int64_t file_bytes, const std::
              str("says ", width, " x ", height, " px, but has only ", file_bytes, " bytes"),
              "the file was cut short or damaged; get it again");
     }
-    std::int64_t channels = 0; // its iterators are too plain for std::distance
+    std::int64_t channels = 0; // std::distance does not accept its iterators
     for (auto c = header.channels().begin(); c != header.channels().end(); ++c) ++channels;
     if (channels > kMostChannels) {
         fail(path, 0, str("has ", channels, " channels, the limit is ", kMostChannels),

@@ -6,19 +6,19 @@
 #include <cstdint>
 #include <string>
 
-/// What reading and writing share, and what is checked before OpenEXR sees a file.
+/// Limits that reading and writing share, and the checks before OpenEXR reads a file.
 namespace heddle::exr {
 
 inline constexpr std::int64_t kMostSide = 1 << 20;
 inline constexpr std::int64_t kMostPixels = std::int64_t{1} << 28;
 inline constexpr std::int64_t kMostChannels = 1024;
 
-/// Throws Error{BadFile} unless the header's attributes and sizes can be true of a file of these
-/// bytes. OpenEXR allocates what a header asks for, so a false one must not reach it.
+/// Throws Error{BadFile} unless the attributes and sizes of the header are possible in a file of
+/// these bytes. OpenEXR allocates what a header asks for, so it must not read a false one.
 /// @param bytes  the whole file
 void check_header(const std::string& bytes, const std::string& path);
 
-/// A file's bytes in memory as OpenEXR reads them.
+/// Lets OpenEXR read the bytes of a file from memory.
 class MemoryInput : public Imf::IStream {
 public:
     MemoryInput(const std::string& bytes, const std::string& path)

@@ -26,7 +26,7 @@ std::vector<float> ramp(std::size_t n, float from, float step) {
     return values;
 }
 
-/// 7 x 5 px; red is stored as half, exact in it.
+/// A file of 7 x 5 px; red is stored as half, where it is exact.
 std::string write_small(const TempFolder& folder, const std::string& name) {
     const std::vector<float> r = ramp(35, 0.0f, 0.25f);
     const std::vector<float> g = ramp(35, 0.1f, 0.3f);

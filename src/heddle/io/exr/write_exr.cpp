@@ -24,7 +24,7 @@ namespace {
 
 constexpr float kMostHalf = 65504.0f;
 
-/// A file that grows in memory: OpenEXR goes back to write where each block lies.
+/// A file that grows in memory; OpenEXR seeks back to write the offsets of its blocks.
 class MemoryOutput : public Imf::OStream {
 public:
     explicit MemoryOutput(const std::string& path) : OStream(path.c_str()) {}
@@ -73,7 +73,7 @@ void check_picture(std::int64_t width, std::int64_t height, std::span<const ExrC
         if (channel.values.size() != static_cast<std::size_t>(width * height)) {
             refuse(str("channel '", channel.name, "' has ", channel.values.size(), " values, ",
                        width, " x ", height, " px need ", width * height),
-                   "give one a pixel");
+                   "give one value per pixel");
         }
     }
 }
@@ -112,8 +112,7 @@ void encode(MemoryOutput& stream,
             const Imf::Header& header,
             std::int32_t height,
             std::span<const ExrChannel> channels) {
-    std::deque<std::vector<Imath::half>>
-        halves; // stays where it is: the frame buffer points into it
+    std::deque<std::vector<Imath::half>> halves; // never moves: the frame buffer points into it
     const Imath::Box2i window = header.dataWindow();
     Imf::FrameBuffer frame;
     for (const ExrChannel& channel : channels) {
@@ -125,7 +124,7 @@ void encode(MemoryOutput& stream,
     Imf::OutputFile file(stream, header, 0);
     file.setFrameBuffer(frame);
     file.writePixels(height);
-} // the file's end writes the table of blocks
+} // the destructor of `file` writes the table of blocks
 
 } // namespace
 

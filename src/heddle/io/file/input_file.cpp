@@ -17,7 +17,7 @@
 namespace heddle {
 namespace {
 
-constexpr std::uint64_t kBufferBytes = 1u << 16; // small reads come from here, not from the kernel
+constexpr std::uint64_t kBufferBytes = 1u << 16; // small reads are served from this buffer
 constexpr std::uint64_t kSurelyFits = 1u << 26;
 constexpr const char* kCutShort =
     "the file is cut short or of another kind; copy or export it again";
@@ -38,12 +38,12 @@ std::string suffix_of(const std::string& path) {
 }
 
 InputFile::InputFile(std::string path) : path_(std::move(path)) {
-    // O_NONBLOCK: a pipe without a writer must not hang before it is found not to be a file
+    // O_NONBLOCK: opening a pipe that has no writer must not block before its type is checked
     fd_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (fd_ < 0) fail_open(path_, errno);
     struct stat info {};
     const char* trouble = nullptr;
-    if (::fstat(fd_, &info) != 0) trouble = "its size cannot be asked for";
+    if (::fstat(fd_, &info) != 0) trouble = "its size cannot be read";
     if (S_ISDIR(info.st_mode))
         trouble = "is a directory, not a file";
     else if (!S_ISREG(info.st_mode))
@@ -62,7 +62,7 @@ InputFile::~InputFile() {
 void InputFile::read_at(std::uint64_t offset, void* out, std::uint64_t bytes) const {
     char* to = static_cast<char*>(out);
     while (bytes > 0) {
-        const std::uint64_t ask = std::min<std::uint64_t>(bytes, 1u << 30); // Linux gives <= 2 GiB
+        const std::uint64_t ask = std::min<std::uint64_t>(bytes, 1u << 30); // Linux reads <= 2 GiB
         const ssize_t got = ::pread(fd_, to, ask, static_cast<off_t>(offset));
         if (got < 0 && errno == EINTR) continue;
         if (got <= 0) {
@@ -85,7 +85,7 @@ std::string read_whole_file(const std::string& path, std::uint64_t limit_bytes) 
             str("has ", file.size_bytes(), " bytes, the limit for this kind is ", limit_bytes),
             "check that it is the right file", {.path = path});
     }
-    // asking the system costs more than reading a small file
+    // the query costs more than reading a small file
     const std::int64_t available = file.size_bytes() < kSurelyFits ? 0 : available_bytes();
     if (available > 0 && file.size_bytes() > static_cast<std::uint64_t>(available)) {
         throw Error(
@@ -113,7 +113,7 @@ void ByteReader::skip(std::uint64_t count, std::uint64_t bytes_each, const char*
 }
 
 void ByteReader::require(std::uint64_t count, std::uint64_t bytes_each, const char* what) const {
-    if (count <= remaining() / bytes_each) return; // a division: the product may pass 64 bits
+    if (count <= remaining() / bytes_each) return; // divided: the product may overflow 64 bits
     fail(offset_,
          count == 1 ? str("'", what, "' needs ", bytes_each, " bytes, ", remaining(), " are left")
                     : str("'", what, "' needs ", count, " x ", bytes_each, " bytes, ", remaining(),
@@ -131,7 +131,7 @@ void ByteReader::read(void* out, std::uint64_t bytes, const char* what) {
     require(1, bytes, what);
     char* to = static_cast<char*>(out);
     const std::uint64_t buffer_end = buffer_start_ + buffer_.size();
-    if (offset_ >= buffer_start_ && offset_ < buffer_end) { // what the buffer holds of it
+    if (offset_ >= buffer_start_ && offset_ < buffer_end) { // the part of it in the buffer
         const std::uint64_t have = std::min(bytes, buffer_end - offset_);
         std::memcpy(to, buffer_.data() + (offset_ - buffer_start_), have);
         to += have;

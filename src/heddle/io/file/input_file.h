@@ -9,13 +9,13 @@
 
 namespace heddle {
 
-/// The suffix of a path in lower case, with its dot: ".bcc"; empty where there is none.
+/// The suffix of a path in lower case, with its dot: ".bcc"; empty if there is none.
 [[nodiscard]] std::string suffix_of(const std::string& path);
 
-/// A regular file open for reading. Its size is taken once, when it is opened.
+/// A regular file that is open for reading. Its size is read once, when it is opened.
 ///
-/// Read by offset, not mapped: a file that shrinks while it is read is an Error, not a SIGBUS.
-/// Threads: `read_at` may be called from several.
+/// It is read by offset, not mapped: if it shrinks while it is read, that is an Error, not a
+/// SIGBUS. Threads: `read_at` may be called from several.
 class InputFile {
 public:
     /// @throws Error  NotFound: no such file; BadFile: a directory, a device or pipe, not readable
@@ -27,8 +27,8 @@ public:
     [[nodiscard]] const std::string& path() const { return path_; }
     [[nodiscard]] std::uint64_t size_bytes() const { return size_bytes_; }
 
-    /// Fills `bytes` bytes from `offset` on.
-    /// @throws Error  BadFile: the file ends before, or the disk fails
+    /// Fills `out` with `bytes` bytes from `offset` on.
+    /// @throws Error  BadFile: the file is too short, or the disk fails
     void read_at(std::uint64_t offset, void* out, std::uint64_t bytes) const;
 
 private:
@@ -37,19 +37,19 @@ private:
     int fd_ = -1;
 };
 
-/// For files of a kind that has no largest size.
+/// The limit for kinds of files that have none.
 inline constexpr std::uint64_t kAnySize = ~std::uint64_t{0};
 
-/// The whole file as bytes, for parsers of text.
-/// @param limit_bytes  largest size taken; more is an Error, so that a wrong file is not swallowed
-/// @throws Error       as InputFile; BadFile: larger than the limit; OutOfMemory: than what is free
+/// Reads the whole file, for parsers of text.
+/// @param limit_bytes  largest size allowed; a larger file is likely a wrong one, and an Error
+/// @throws Error       as InputFile; BadFile: larger than the limit; OutOfMemory: than free memory
 [[nodiscard]] std::string read_whole_file(const std::string& path,
                                           std::uint64_t limit_bytes = std::uint64_t{1} << 30);
 
-/// Reads a little-endian binary file from front to back; no read passes the file's end.
+/// Reads a little-endian binary file from front to back, never past its end.
 ///
-/// Every read names what it reads, for the message. Arrays go straight to their place, so a file
-/// costs no second copy in memory. All reads throw Error{BadFile} with path and byte offset.
+/// Every read names what it reads, for messages. Arrays are read into their final memory, without a
+/// second copy of the file. All reads throw Error{BadFile} with path and byte offset.
 class ByteReader {
 public:
     explicit ByteReader(std::string path);
@@ -60,12 +60,11 @@ public:
     [[nodiscard]] std::uint64_t remaining() const { return size_bytes() - offset_; }
 
     [[nodiscard]] std::uint8_t u8(const char* what) { return value<std::uint8_t>(what); }
-    [[nodiscard]] std::uint16_t u16(const char* what) { return value<std::uint16_t>(what); }
     [[nodiscard]] std::uint32_t u32(const char* what) { return value<std::uint32_t>(what); }
     [[nodiscard]] std::int32_t i32(const char* what) { return value<std::int32_t>(what); }
     [[nodiscard]] std::uint64_t u64(const char* what) { return value<std::uint64_t>(what); }
     [[nodiscard]] float f32(const char* what) { return value<float>(what); }
-    /// `bytes` bytes as they are.
+    /// Reads `bytes` bytes unchanged.
     [[nodiscard]] std::string text(std::uint64_t bytes, const char* what);
 
     /// Fills `out` from the file.
@@ -74,7 +73,7 @@ public:
         static_assert(std::is_trivially_copyable_v<T>);
         read(out.data(), out.size_bytes(), what);
     }
-    /// The next `count` values; the file's size is checked before memory is taken.
+    /// Reads the next `count` values; the file's size is checked before memory is allocated.
     template <typename T>
     [[nodiscard]] std::vector<T> array(std::uint64_t count, const char* what) {
         require(count, sizeof(T), what);
@@ -82,10 +81,10 @@ public:
         fill(std::span<T>(out), what);
         return out;
     }
-    /// Passes over `count` items of `bytes_each`.
+    /// Skips `count` items of `bytes_each` bytes.
     void skip(std::uint64_t count, std::uint64_t bytes_each, const char* what);
 
-    /// @throws Error  BadFile: `count` items of `bytes_each` (>= 1) are more than what is left
+    /// @throws Error  BadFile: `count` items of `bytes_each` (>= 1) bytes are more than remain
     void require(std::uint64_t count, std::uint64_t bytes_each, const char* what) const;
 
     /// Throws Error{BadFile} at byte `at`.

@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kBufferBytes = 1u << 20;
 
-/// "dir/.name.heddle-PID-N.suffix": hidden, unique on this machine, and with the suffix that some
-/// libraries choose a format by.
+/// "dir/.name.heddle-PID-N.suffix": hidden, unique on this machine, and with the suffix, by which
+/// some libraries choose a format.
 std::string make_temp_name(const fs::path& final_path) {
     static std::atomic<unsigned> count{0};
     const std::string name = str(".", final_path.stem().string(), ".heddle-", ::getpid(), "-",
@@ -30,7 +30,7 @@ std::string make_temp_name(const fs::path& final_path) {
     return (final_path.parent_path() / name).string();
 }
 
-/// Waits until the disk has the file or folder at `path`; returns 0 or errno.
+/// Waits until the file or folder at `path` is on the disk; returns 0 or errno.
 int sync_path(const std::string& path) {
     const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (fd < 0) return errno;
@@ -59,14 +59,14 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)), final_path_(p
         temp_path_ = final_path_;
         fd_ = ::open(temp_path_.c_str(), O_WRONLY | O_CLOEXEC);
     } else {
-        const mode_t mode = exists ? old.st_mode & 0777 : 0666; // else less the user's umask
-        for (int attempt = 0; attempt < 100; ++attempt) { // a crashed run may have left our name
+        const mode_t mode = exists ? old.st_mode & 0777 : 0666; // else minus the umask
+        for (int attempt = 0; attempt < 100; ++attempt) {       // a crashed run may have left one
             temp_path_ = make_temp_name(final_path_);
             fd_ = ::open(temp_path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
             if (fd_ >= 0 || errno != EEXIST) break;
         }
         pending_ = fd_ >= 0;
-        if (exists && pending_) static_cast<void>(::fchmod(fd_, mode)); // the umask took from it
+        if (exists && pending_) static_cast<void>(::fchmod(fd_, mode)); // undoes the umask
     }
     if (fd_ < 0) fail("open for writing", errno);
 }
@@ -109,7 +109,7 @@ void OutputFile::flush() {
 }
 
 void OutputFile::close_checked() {
-    // close() can be where a network disk first says that it is full
+    // a network disk may report only here, in close(), that it is full
     if (::close(std::exchange(fd_, -1)) != 0 && errno != EINTR) fail("write", errno);
 }
 
@@ -117,11 +117,11 @@ void OutputFile::commit() {
     flush();
     close_checked();
     if (in_place_) return;
-    // by path: a library that wrote by path may have put another file there
+    // by path: a library that wrote by path may have replaced the file
     if (const int error = sync_path(temp_path_); error != 0) fail("write", error);
     if (::rename(temp_path_.c_str(), final_path_.c_str()) != 0) fail("put in place", errno);
     pending_ = false;
-    // the bytes are safe; a folder that cannot be synced is no reason to call the job failed
+    // the bytes are safe: a folder that cannot be synced is no reason to fail
     const fs::path folder = fs::path(final_path_).parent_path();
     static_cast<void>(sync_path(folder.empty() ? "." : folder.string()));
 }

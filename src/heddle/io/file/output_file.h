@@ -9,12 +9,12 @@
 
 namespace heddle {
 
-/// A file that appears at its place whole or not at all.
+/// A file that appears at its path completely or not at all.
 ///
-/// Bytes go to a temporary file in the same folder (a hidden name, the same suffix); `commit()`
-/// puts it in place. Destroyed without commit (an Error, Ctrl-C's Error{Cancelled}), it leaves no
-/// trace and the old file as it was. A place that is a device or pipe (/dev/stdout) is written to
-/// directly; a symbolic link keeps pointing at what it pointed at. Write with `write`, or hand
+/// Bytes are written to a temporary file in the same folder (a hidden name, the same suffix);
+/// `commit()` renames it. If it is destroyed without commit (an Error, or Error{Cancelled} after
+/// Ctrl-C), the temporary file is removed and the old file unchanged. A device or pipe
+/// (/dev/stdout) is written directly; a symbolic link keeps its target. Either use `write`, or give
 /// `temp_path()` to a library that writes by path: not both.
 class OutputFile {
 public:
@@ -27,7 +27,7 @@ public:
     OutputFile& operator=(const OutputFile&) = delete;
 
     [[nodiscard]] const std::string& path() const { return path_; }
-    /// Where the bytes are until commit: exists, is empty, and ends in the final path's suffix.
+    /// Where the bytes are until commit: it exists, is empty, and has the final path's suffix.
     [[nodiscard]] const std::string& temp_path() const { return temp_path_; }
 
     /// Appends bytes.
@@ -45,13 +45,13 @@ public:
         write(&value, sizeof(T));
     }
 
-    /// Throws the Error of a failure to write, for what writes by `temp_path()`.
+    /// Throws the Error of a failed write, for code that writes to `temp_path()`.
     /// @param doing  "write", in "cannot write"
     /// @param error  an errno
     [[noreturn]] void fail(const char* doing, int error) const;
 
-    /// Flushes, waits until the disk has it, renames into place. Once, last.
-    /// @throws Error  CannotWrite; the old file is then untouched
+    /// Flushes, waits until the disk has the bytes, and renames the file. Call it once, at the end.
+    /// @throws Error  CannotWrite; the old file is then unchanged
     void commit();
 
 private:
@@ -64,7 +64,7 @@ private:
     std::vector<char> buffer_;
     int fd_ = -1;
     bool in_place_ = false; ///< a device or pipe: no temporary file, nothing to rename
-    bool pending_ = false;  ///< the temporary file is there and must go
+    bool pending_ = false;  ///< the temporary file exists and must be removed
 };
 
 } // namespace heddle

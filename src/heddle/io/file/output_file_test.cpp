@@ -27,7 +27,7 @@ TEST(OutputFile, WithoutCommitTheOldFileStays) {
     const std::string path = folder.write("a.bin", "old");
     {
         OutputFile file(path);
-        const std::string large(3u << 20, 'x'); // past the buffer: some of it is on disk by now
+        const std::string large(3u << 20, 'x'); // larger than the buffer: partly on disk
         file.write(large.data(), large.size());
     }
     EXPECT_EQ(slurp(path), "old");

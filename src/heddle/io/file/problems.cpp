@@ -21,7 +21,7 @@ void Problems::add(const Place& place, const std::string& what, const std::strin
 
 void Problems::throw_if_any() {
     if (problems_.empty()) return;
-    constexpr std::size_t kMost = 100; // more come from a file that is something else
+    constexpr std::size_t kMost = 100; // a file with more is of another kind
     std::stable_sort(problems_.begin(), problems_.end(), [](const Problem& a, const Problem& b) {
         const bool a_whole = a.line <= 0, b_whole = b.line <= 0;
         return std::tie(a.file, a_whole, a.line) < std::tie(b.file, b_whole, b.line);

@@ -6,28 +6,28 @@
 
 namespace heddle {
 
-/// Where something stands in a text file.
+/// A line of a text file, for messages.
 struct Place {
     std::string path;
-    std::int64_t line = 0; ///< 1-based; 0: the file as a whole
+    std::int64_t line = 0; ///< 1-based; 0: the whole file
 };
 
 /// "scene.toml:12".
 [[nodiscard]] std::string to_string(const Place& place);
 
-/// Collects what is wrong with a file, and with others that it includes.
+/// Collects the problems of a file and of the files that it includes.
 class Problems {
 public:
-    /// @param what  with the number or name found and what is allowed
+    /// @param what  the problem, with the number or name that was found and what is allowed
     /// @param fix   what to do; may be empty
     void add(const Place& place, const std::string& what, const std::string& fix = {});
-    /// @throws Error  BadFile when there is any problem: one a line, in the order of the files and
-    /// of their lines, what is wrong with a file as a whole last
+    /// @throws Error  BadFile if there is any problem: one per line, in the order of the files and
+    ///                of their lines; problems of a whole file are last
     void throw_if_any();
 
 private:
     struct Problem {
-        std::size_t file; ///< files are numbered as their first problems come
+        std::size_t file; ///< files are numbered in the order of their first problems
         std::int64_t line;
         std::string text;
     };

@@ -1,6 +1,6 @@
 #pragma once
 
-// What the tests of this room share: a folder of their own, files made of bytes, real data, Errors.
+// Shared by the tests of this room: a temporary folder, files made of bytes, real data, Errors.
 
 #include <heddle/base/error.h>
 #include <heddle/geom/geometry.h>
@@ -20,11 +20,11 @@
 
 namespace heddle::testing {
 
-/// A folder that is removed with all that is in it.
+/// A folder that is removed with its contents.
 class TempFolder {
 public:
     TempFolder() {
-        // thousands of damaged files are written: to memory where there is such a place
+        // thousands of damaged files are written: in memory, if there is such a folder
         const std::filesystem::path shm = "/dev/shm";
         const bool memory = ::access(shm.c_str(), W_OK) == 0;
         std::string name =
@@ -57,7 +57,7 @@ inline std::string slurp(const std::string& path) {
     return std::move(out).str();
 }
 
-/// Numbers as the bytes that a little-endian file holds.
+/// The bytes of numbers in a little-endian file.
 template <typename T, typename... Rest>
 std::string bytes(T first, Rest... rest) {
     static_assert(std::is_arithmetic_v<T>);
@@ -66,7 +66,7 @@ std::string bytes(T first, Rest... rest) {
     return out;
 }
 
-/// The Error that `action` throws, or none.
+/// The Error that `action` throws, if any.
 inline std::optional<Error> error_of(const std::function<void()>& action) {
     try {
         action();
@@ -76,7 +76,7 @@ inline std::optional<Error> error_of(const std::function<void()>& action) {
     return std::nullopt;
 }
 
-/// Expects an Error of this code whose one line holds `text`.
+/// Expects an Error of this code whose one line contains `text`.
 inline void
 expect_error(ErrorCode code, const std::string& text, const std::function<void()>& action) {
     const std::optional<Error> e = error_of(action);
@@ -87,7 +87,7 @@ expect_error(ErrorCode code, const std::string& text, const std::function<void()
     EXPECT_EQ(what.find('\n'), std::string::npos) << what;
 }
 
-/// Expects an Error from every proper prefix of `whole`, and a result from the whole.
+/// Expects an Error for every proper prefix of `whole`, and a result for the whole.
 inline void expect_truncations_fail(const TempFolder& folder,
                                     const std::string& name,
                                     const std::string& whole,
@@ -101,7 +101,7 @@ inline void expect_truncations_fail(const TempFolder& folder,
     EXPECT_NO_THROW(read(folder.write(name, whole)));
 }
 
-/// Flips every bit of `whole` in turn: an Error or a result, never a crash (run under ASan).
+/// Flips every bit of `whole` in turn: an Error or a result, never a crash (run it under ASan).
 inline void flip_every_bit(const TempFolder& folder,
                            const std::string& name,
                            const std::string& whole,
@@ -121,7 +121,7 @@ inline bool has_note(const Geometry& g, const std::string& text) {
     return false;
 }
 
-/// Path of a file of real data; empty when the data is not there.
+/// The path of a file of real data; empty if the data is not there.
 inline std::string find_data(const std::string& name) {
     const char* folder = std::getenv("HEDDLE_TEST_DATA");
     const std::string path =

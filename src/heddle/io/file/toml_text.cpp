@@ -20,7 +20,7 @@ bool is_letter_or_quote(char c) {
     return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '"' || c == '\'';
 }
 
-/// Whether toml++ can be handed what follows a header's brackets.
+/// True if toml++ can parse this character after the bracket of a header.
 bool may_follow_bracket(char c) {
     return is_letter_or_quote(c) || std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '-' ||
            c == ']';
@@ -35,8 +35,8 @@ std::string table_name(std::string_view line) {
     return name;
 }
 
-/// Walks over the text as TOML. Where the text is no TOML it may go astray, but not before: toml++
-/// stops at the first fault, so what it sees was walked over rightly.
+/// Scans the text as TOML. After an error in the text the scan may be wrong, but not before; toml++
+/// stops at the first error, so all that it reads was scanned correctly.
 class Walk {
 public:
     Walk(std::string_view text, const std::string& path, Problems& problems)
@@ -107,8 +107,8 @@ private:
         open_.pop_back();
     }
 
-    /// From behind an opening quote to behind the closing one, or to the end of the line that lacks
-    /// it.
+    /// Moves from after an opening quote to after the closing one, or to the end of the line if
+    /// that is missing.
     void skip_text(char quote) {
         const std::string triple(3, quote);
         const bool lines = text_.substr(at_ - 1, 3) == triple;
@@ -121,7 +121,7 @@ private:
                 ++at_;
             if (c != quote || (lines && text_.substr(at_, 3) != triple)) continue;
             at_ += lines ? 3 : 1;
-            while (lines && at_ < text_.size() && text_[at_] == quote) ++at_; // quotes of the text
+            while (lines && at_ < text_.size() && text_[at_] == quote) ++at_; // part of the text
             return;
         }
     }
@@ -131,7 +131,7 @@ private:
     Problems& problems_;
     std::size_t at_ = 0;
     std::int64_t line_ = 1;
-    std::string open_; ///< the brackets of values that are open
+    std::string open_; ///< the open brackets of values
     bool line_begins_ = true;
     bool in_header_ = false;
     bool good_ = true;

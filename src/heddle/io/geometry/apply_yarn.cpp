@@ -21,14 +21,14 @@ YarnType read_asked_yarn(const YarnOptions& options, std::vector<std::string>& n
     return std::move(file.yarn);
 }
 
-/// All curves become this yarn, in a fiber material of its colour.
+/// Makes all curves this yarn, with a fiber material of its colour.
 void make_yarn(Geometry& geometry, YarnType yarn) {
     Material material;
     material.name = yarn.name;
     material.kind = MaterialKind::Fiber;
     material.albedo = yarn.albedo;
     if (geometry.meshes.empty())
-        geometry.materials.clear(); // the reader's, which nothing names now
+        geometry.materials.clear(); // the reader's materials are no longer used
     geometry.materials.push_back(material);
     geometry.yarns.assign(1, std::move(yarn));
     for (CurveSet& set : geometry.curves) {

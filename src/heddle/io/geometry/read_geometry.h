@@ -7,9 +7,9 @@
 
 namespace heddle {
 
-/// Reads curves or meshes: the reader is chosen by the suffix. What was assumed is in the notes.
-/// @param options  of curve files; others ignore it
-/// @throws Error  as the readers; Unsupported: no reader for the suffix
+/// Reads curves or meshes with the reader for the suffix. The notes tell what was assumed.
+/// @param options  for curve files; others ignore it
+/// @throws Error  as the readers; Unsupported: there is no reader for the suffix
 [[nodiscard]] Geometry read_geometry(const std::string& path, const CurveReadOptions& options = {});
 
 } // namespace heddle

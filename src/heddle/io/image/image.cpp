@@ -3,11 +3,12 @@
 #include <heddle/base/error.h>
 #include <heddle/io/file/input_file.h>
 #include <heddle/io/file/output_file.h>
+#include <heddle/io/image/jpeg_tables.h>
 
 #include <limits>
 #include <memory>
 
-// The only place that compiles stb. Static, because libtinygltf brings a copy of its own.
+// The only file that compiles stb; static, because libtinygltf contains a copy of its own.
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
 #define STBI_ONLY_PNG
@@ -22,8 +23,8 @@
 namespace heddle {
 namespace {
 
-// Deflate shrinks at most 1032 times and a PNG texel takes at least one bit; JPEG stays below that.
-// More texels than this per byte is a lie in the header, told to make us allocate.
+// Deflate compresses by at most 1032, and a PNG texel has at least one bit; JPEG compresses less. A
+// header with more texels per byte is false and must not make us allocate.
 constexpr std::int64_t kMaxTexelsPerByte = 8 * 1032;
 constexpr std::int64_t kMaxSide = 1 << 24;
 
@@ -34,7 +35,7 @@ void check_size(std::int64_t width, std::int64_t height, std::int64_t channels, 
                     str("an image of ", width, " x ", height, " px with ", channels,
                         " channels cannot be a PNG"),
                     "use 1 to 2^24 px a side and 1 to 4 channels");
-    const std::int64_t bytes = (width * channels + 1) * height; // a filter byte leads each row
+    const std::int64_t bytes = (width * channels + 1) * height; // a filter byte starts each row
     if (bytes > std::numeric_limits<std::int32_t>::max())
         throw Error(ErrorCode::InvalidArgument,
                     str("an image of ", width, " x ", height, " px has ", bytes,
@@ -62,6 +63,7 @@ Texture decode_image(std::span<const std::byte> bytes, const std::string& name) 
     if (bytes.empty()) fail("is empty, not a PNG or JPEG image");
     if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
         fail(str("has ", bytes.size(), " bytes, an image has fewer than 2^31"));
+    check_jpeg_tables(bytes, name); // false tables make stb 2.27 write past its arrays
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
     const int size = static_cast<int>(bytes.size());
     Texture image;

@@ -13,7 +13,7 @@ namespace {
 using testing::expect_error;
 using testing::TempFolder;
 
-/// A pattern whose every texel and channel differs from its neighbours.
+/// A pattern in which every texel and channel differs from its neighbours.
 std::vector<std::uint8_t> pattern(int width, int height, int channels) {
     std::vector<std::uint8_t> texels(static_cast<std::size_t>(width * height * channels));
     for (std::size_t i = 0; i < texels.size(); ++i)
@@ -49,7 +49,7 @@ TEST(Image, SixteenBitsKeepTheirUpperByte) {
         kPng{
             0x89, 'P',  'N',  'G', 13,   10,   26,   10,   0,    0,    0, 13,
             'I',  'H',  'D',  'R', 0,    0,    0,    1,    0,    0,    0, 1,
-            16,   0,    0,    0,   0,    0,    0,    0,    0, // the check sum: stb does not test it
+            16,   0,    0,    0,   0,    0,    0,    0,    0, // the checksum: stb does not check it
             0,    0,    0,    14,  'I',  'D',  'A',  'T',  0x78, 0x01, 1, 3,
             0,    0xFC, 0xFF, 0,   0xAB, 0xCD, 0x02, 0x44, 0x01, 0x79, 0, 0,
             0,    0,    0,    0,   0,    0,    'I',  'E',  'N',  'D'};
@@ -72,13 +72,13 @@ TEST(Image, EveryTruncationOfAPngIsAnErrorOrAWholeImage) {
             ++errors;
         }
     }
-    EXPECT_GT(errors, static_cast<int>(whole.size()) - 16); // at most IEND may be missing
+    EXPECT_GT(errors, static_cast<int>(whole.size()) - 16); // only IEND may be missing
 }
 
 TEST(Image, AHugeSizeInATinyFileIsRefusedBeforeAllocating) {
     std::vector<std::byte> bytes = png_bytes(9, 5, 1);
-    bytes[18] = std::byte{0x3F}; // the width's third byte: 16 k
-    bytes[21] = std::byte{0x3F}; // the height's second byte: 4 M
+    bytes[18] = std::byte{0x3F}; // third byte of the width: 16 k
+    bytes[21] = std::byte{0x3F}; // second byte of the height: 4 M
     expect_error(ErrorCode::BadFile, "lie: ", [&] { (void)decode_image(bytes, "lie"); });
 }
 

@@ -7,11 +7,11 @@
 
 namespace heddle {
 
-/// A voxel's lobe names its material by a byte.
+/// The most materials of a geometry: a voxel's lobe stores its material in a byte.
 inline constexpr std::size_t kMaxMaterials = 256;
 
 /// Adds `material` and returns its index.
-/// @throws Unsupported past kMaxMaterials
+/// @throws Unsupported: more than kMaxMaterials
 inline std::uint32_t add_material(Geometry& geometry, Material material, const std::string& path) {
     if (geometry.materials.size() == kMaxMaterials)
         throw Error(ErrorCode::Unsupported,

@@ -6,7 +6,7 @@
 namespace heddle {
 namespace {
 
-/// Which edges meet at each point: those of point p are edge[first[p]] to edge[first[p + 1]].
+/// The edges that meet at each point: those of point p are edge[first[p]] to edge[first[p + 1]].
 struct Incidence {
     std::vector<std::size_t> first;
     std::vector<std::size_t> edge;
@@ -44,7 +44,7 @@ public:
         out_.first.push_back(0);
     }
 
-    /// Follows every chain that has an end, then what is left: rings.
+    /// Follows every chain that has an end, then the rest, which are rings.
     CurveSet run() {
         for (const bool rings : {false, true}) {
             for (std::size_t e = 0; e < edges_.size(); ++e) {

@@ -7,8 +7,8 @@
 
 namespace heddle {
 
-/// Joins single edges into polylines: chains run through points where exactly two edges meet, and
-/// end everywhere else; rings become closed curves. Edges from a point to itself are left out.
+/// Joins single edges into polylines: chains pass through points where exactly two edges meet, and
+/// end at all other points; rings become closed curves. Edges from a point to itself are ignored.
 /// @param points  n, scene units
 /// @param radius  n, scene units, or empty
 /// @param edges   pairs of indices < n

@@ -21,7 +21,7 @@ bool is_image_suffix(const fs::path& path) {
     return suffix == ".png" || suffix == ".jpg" || suffix == ".jpeg";
 }
 
-/// The first file by name in `folder` with that stem and an image's suffix; empty: there is none.
+/// The first file by name in `folder` with this stem and an image's suffix; empty if there is none.
 fs::path same_stem(const fs::path& folder, const fs::path& stem) {
     std::vector<fs::path> found;
     std::error_code error;

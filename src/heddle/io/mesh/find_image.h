@@ -9,12 +9,12 @@
 
 namespace heddle {
 
-/// The image that a mesh file in `folder` calls `name`: the file as named; else of that file name
-/// beside the mesh; else, in both places, of the same stem with another suffix (.png .jpg .jpeg).
+/// Finds and reads the image that a mesh file in `folder` calls `name`: at the given path, else by
+/// its file name beside the mesh, else in both with another suffix of an image (.png .jpg .jpeg).
 ///
-/// What was found elsewhere, or not found, or broken, is said in `notes`. A grey image becomes RGB
-/// (with alpha: RGBA), so that every map has the channels that glTF speaks of.
-/// @return nothing where there is no such image or it cannot be read
+/// Notes say if it was found elsewhere, or not found, or cannot be read. A grey image becomes RGB
+/// (with alpha: RGBA), so that every map has the channels of glTF.
+/// @return nothing if there is no such image or it cannot be read
 [[nodiscard]] std::optional<Texture> find_image(const std::filesystem::path& folder,
                                                 const std::string& name,
                                                 std::vector<std::string>& notes);

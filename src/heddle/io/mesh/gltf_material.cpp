@@ -49,7 +49,7 @@ Wrap wrap_from(int mode) {
     return mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::Mirror : Wrap::Repeat;
 }
 
-/// `%20` and its like become bytes.
+/// Decodes `%20` and the like into bytes.
 std::string decode_uri(const std::string& uri) {
     std::string out;
     for (std::size_t i = 0; i < uri.size(); ++i) {
@@ -110,7 +110,7 @@ GltfMaterials::Used GltfMaterials::convert(const tinygltf::Material& from) {
     Used used;
     if (!sources_.empty()) used.uv = sources_.front();
     if (std::count(sources_.begin(), sources_.end(), used.uv) < std::ssize(sources_))
-        geometry_.notes.push_back(str("material '", to.name, "': its maps are placed differently; ",
+        geometry_.notes.push_back(str("material '", to.name, "': its maps differ in uv transform; ",
                                       "all are read with the uv of the first"));
     used.index =
         add_material(geometry_, std::move(to), (model_.folder() / geometry_.name).string());

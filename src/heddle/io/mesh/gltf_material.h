@@ -8,7 +8,7 @@
 
 namespace heddle {
 
-/// Where a material's maps take their uv from: a TEXCOORD set, then KHR_texture_transform.
+/// The uv source of a material's maps: a TEXCOORD set, then KHR_texture_transform.
 struct UvSource {
     int set = 0;
     double offset_u = 0.0, offset_v = 0.0;
@@ -19,7 +19,7 @@ struct UvSource {
     [[nodiscard]] Uv apply(Uv uv) const;
 };
 
-/// Turns glTF materials into heddle's when they are first used; each texture is decoded once.
+/// Converts glTF materials to heddle's at their first use; each texture is decoded once.
 class GltfMaterials {
 public:
     struct Used {
@@ -32,7 +32,7 @@ public:
         : model_(model), geometry_(geometry) {}
 
     /// @param material  index in the glTF file; -1: glTF's default material
-    /// @throws BadFile; Unsupported past 256 materials
+    /// @throws BadFile; Unsupported: more than 256 materials
     Used use(int material);
 
 private:
@@ -51,7 +51,7 @@ private:
     Geometry& geometry_;
     std::map<int, Used> used_;
     std::map<std::pair<int, bool>, std::int32_t> loaded_; ///< by glTF texture and srgb
-    std::vector<UvSource> sources_;                       ///< of the maps of the present material
+    std::vector<UvSource> sources_;                       ///< of the maps of the current material
 };
 
 } // namespace heddle

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kMostBytes = 0xFFFFFFFF; // a .glb counts its bytes in 32 bits
 constexpr int kMaxNesting = 64;                  // of JSON; tinygltf recurses once per level
 
-/// tinygltf also looks into the working folder; only the model's own may answer.
+/// tinygltf also looks into the working folder: only the model's folder may answer.
 struct Files {
     std::string prefix;
     static bool exists(const std::string& name, void* self) {
@@ -40,7 +40,7 @@ struct Files {
     }
 };
 
-/// Keeps the bytes of images inside the JSON; those in buffers and files are looked up when used.
+/// Keeps the bytes of images inside the JSON; those in buffers and files are found when used.
 bool keep_image(tinygltf::Image* image,
                 const int,
                 std::string*,
@@ -109,7 +109,7 @@ double component(const unsigned char* at, int type, bool normalized) {
     }
 }
 
-/// An array inside a buffer view after its check.
+/// An array inside a buffer view, after its checks.
 struct Array {
     const unsigned char* data = nullptr;
     std::size_t stride = 0;
@@ -140,7 +140,7 @@ Array array_in(const GltfModel& model,
     return {bytes.data() + offset, stride, static_cast<std::size_t>(size)};
 }
 
-/// The parser's words without the name of its exception and its full stop.
+/// The parser's message without the name of its exception and its full stop.
 std::string parser_words(std::string text) {
     while (!text.empty() && (text.back() == '\n' || text.back() == '.')) text.pop_back();
     if (text.starts_with("[json.exception")) text.erase(0, text.find("] ") + 2);
@@ -160,7 +160,7 @@ GltfModel::GltfModel(const fs::path& path) : path_(path) {
     }
 }
 
-/// The JSON of a .gltf or .glb, after a check of the .glb's sizes.
+/// The JSON of a .gltf or .glb, after checking the sizes of the .glb.
 std::string_view GltfModel::json_in(std::span<const std::byte> bytes, bool binary) const {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (!binary) return text;
@@ -226,7 +226,7 @@ std::vector<float> GltfModel::floats(int index, int components, const std::strin
     const auto width = static_cast<std::size_t>(components);
     std::vector<float> out;
     if (from.bufferView < 0) {
-        // Zeros, by glTF's rule; a count that nothing in the file backs is not worth its memory.
+        // Zeros, as glTF says; a count that no bytes of the file confirm must not allocate memory.
         if (from.count > held_bytes_)
             fail(str(what, " has ", from.count, " elements and no buffer view"));
         out.resize(from.count * width);
@@ -283,7 +283,7 @@ std::vector<std::uint32_t> GltfModel::indices(int index, std::uint64_t limit) co
         (from.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
          from.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
          from.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT))
-        fail(str("accessor ", index, " is used as indices and is no array of unsigned integers"));
+        fail(str("accessor ", index, " is used for indices but has no unsigned integers"));
     const Array array = array_in(*this, from.bufferView, from.byteOffset, from.count,
                                  from.componentType, 1, "an index accessor");
     std::vector<std::uint32_t> out;

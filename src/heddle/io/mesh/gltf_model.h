@@ -12,7 +12,7 @@
 
 namespace heddle {
 
-/// A glTF file as tinygltf reads it, with the checks that tinygltf leaves out. Images stay encoded.
+/// A glTF file as read by tinygltf, with the checks that tinygltf omits. Images stay encoded.
 class GltfModel {
 public:
     /// @throws NotFound, BadFile; Unsupported for geometry compressed by Draco or meshopt
@@ -22,24 +22,24 @@ public:
     [[nodiscard]] const tinygltf::Model* operator->() const { return &model_; }
     [[nodiscard]] std::filesystem::path folder() const { return path_.parent_path(); }
 
-    /// Values of an accessor, element by element: floats as they are, normalized integers divided
-    /// by their largest value, other integers converted; sparse parts put in.
-    /// @param components  numbers of an element that are wanted; the element may have more
+    /// The values of an accessor, element by element: floats unchanged, normalized integers divided
+    /// by their largest value, other integers converted; sparse parts inserted.
+    /// @param components  numbers per element that are wanted; the element may have more
     /// @param what        the attribute's name, for messages
-    /// @throws BadFile where it does not fit its buffer, or a value is not finite
+    /// @throws BadFile: it exceeds its buffer, or a value is not finite
     [[nodiscard]] std::vector<float>
     floats(int accessor, int components, const std::string& what) const;
 
-    /// Values of an index accessor.
-    /// @param limit  every index is below it
+    /// The values of an index accessor.
+    /// @param limit  every index must be below it
     /// @throws BadFile
     [[nodiscard]] std::vector<std::uint32_t> indices(int accessor, std::uint64_t limit) const;
 
-    /// Bytes of a buffer view.
-    /// @throws BadFile where it does not fit its buffer
+    /// The bytes of a buffer view.
+    /// @throws BadFile: it exceeds its buffer
     [[nodiscard]] std::span<const unsigned char> view(int buffer_view) const;
 
-    /// Throws BadFile naming the file.
+    /// Throws BadFile with the path of the file.
     [[noreturn]] void fail(const std::string& what) const;
 
 private:
@@ -54,14 +54,14 @@ private:
     std::uint64_t held_bytes_ = 0; ///< of all buffers
 };
 
-/// The member `key` of a JSON object; nullptr where there is none.
+/// The member `key` of a JSON object; nullptr if there is none.
 [[nodiscard]] const tinygltf::Value* find_member(const tinygltf::Value& object, const char* key);
 
-/// An extension by name; nullptr where there is none or it is no object.
+/// The extension with this name; nullptr if there is none or it is not an object.
 [[nodiscard]] const tinygltf::Value* find_extension(const tinygltf::ExtensionMap& map,
                                                     const char* name);
 
-/// The number `key` of a JSON object; `fallback` where there is none, or it is not finite.
+/// The number `key` of a JSON object; `fallback` if there is none, or it is not finite.
 [[nodiscard]] double number_or(const tinygltf::Value& object, const char* key, double fallback);
 
 } // namespace heddle

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// A .gltf under construction: arrays go to one external buffer, a.bin.
+/// A .gltf under construction: arrays are stored in one external buffer, a.bin.
 class Scene {
 public:
     Scene() {
@@ -188,7 +188,7 @@ TEST_F(ReadGltf, NodesTurnScaleAndMoveInThatOrder) {
                            {{"mesh", 0}, {"rotation", {0, 0, h, h}}, {"scale", {2, 1, 1}}}};
     const Geometry g = read(scene);
     const Mesh& mesh = g.meshes.at(0);
-    expect_near(mesh.positions[1], {10, 2, 0}); // (1,0,0) scaled to 2, turned to y, moved
+    expect_near(mesh.positions[1], {10, 2, 0}); // (1,0,0) scaled to 2, rotated to y, moved
     expect_near(mesh.positions[2], {9, 0, 0});
     expect_near(mesh.normals[0], {0, 0, 1});
 }
@@ -252,7 +252,7 @@ TEST_F(ReadGltf, StripsAndFansKeepTheirWinding) {
     scene.primitive()["mode"] = 6;
     const Geometry fan = read(scene);
     EXPECT_EQ(fan.meshes.at(0).triangles.size(), 2u);
-    for (const Vec3f n : fan.meshes[0].normals) expect_near(n, {0, 0, 1}); // flat: none in the file
+    for (const Vec3f n : fan.meshes[0].normals) expect_near(n, {0, 0, 1}); // flat: none in file
 }
 
 TEST_F(ReadGltf, NormalizedIntegersAndSparseElementsAreRead) {
@@ -298,7 +298,7 @@ TEST_F(ReadGltf, MapsBringTheirTransformWrapAndColourSpace) {
     const Geometry g = read(scene);
     EXPECT_TRUE(g.notes.empty());
     const Mesh& mesh = g.meshes.at(0);
-    EXPECT_NEAR(mesh.uvs[1].u, 0.5f, 1e-6f); // (2, 0) turned by a quarter: (0, -2)
+    EXPECT_NEAR(mesh.uvs[1].u, 0.5f, 1e-6f); // (2, 0) rotated by a quarter: (0, -2)
     EXPECT_NEAR(mesh.uvs[1].v, -1.75f, 1e-6f);
     EXPECT_NEAR(mesh.uvs[2].u, 3.5f, 1e-6f); // (0, 3): (3, 0)
     EXPECT_EQ(mesh.tangents.size(), 3u);
@@ -333,7 +333,7 @@ TEST_F(ReadGltf, AMissingImageIsTakenFromItsSiblingOrDroppedWithANote) {
     EXPECT_NE(g.notes[0].find("'color.png' is taken in its place"), std::string::npos);
     EXPECT_NE(g.notes[1].find("'gone.png' is missing"), std::string::npos);
     EXPECT_NE(g.notes[2].find("not a PNG or JPEG"), std::string::npos);
-    EXPECT_TRUE(g.meshes.at(0).tangents.empty()); // without its normal map it needs none
+    EXPECT_TRUE(g.meshes.at(0).tangents.empty()); // without a normal map it needs none
 }
 
 TEST_F(ReadGltf, SpecularGlossinessGivesItsDiffuseColour) {

@@ -28,8 +28,8 @@ bool looks_like_normals(const Texture& image) {
     return blue > red + red / 4;
 }
 
-/// The alpha that map_d gives texel (x, y) of an image of another size: nearest, from the image's
-/// alpha channel where it has one, else from its first.
+/// The alpha that map_d gives to texel (x, y) of an image of another size: nearest texel; its alpha
+/// channel if it has one, else its first channel.
 std::uint8_t alpha_at(const Texture& mask, std::int64_t x, std::int64_t y, const Texture& like) {
     const std::int64_t mask_x = x * mask.width / like.width;
     const std::int64_t mask_y = y * mask.height / like.height;
@@ -38,7 +38,7 @@ std::uint8_t alpha_at(const Texture& mask, std::int64_t x, std::int64_t y, const
         .texels[static_cast<std::size_t>((mask_y * mask.width + mask_x) * mask.channels + channel)];
 }
 
-/// `color` with the alpha of `mask` in place of its own.
+/// `color` with its alpha replaced by `mask`.
 Texture with_alpha(const Texture& color, const Texture& mask) {
     Texture out = color;
     out.channels = 4;
@@ -113,7 +113,7 @@ Material ObjMaterials::convert(const tinyobj::material_t& from) {
     to.name = from.name;
     to.albedo = {unit(from.diffuse[0]), unit(from.diffuse[1]), unit(from.diffuse[2])};
     to.albedo_map = load(from.diffuse_texname, true, from.diffuse_texopt.clamp);
-    // Exporters write `Kd 0 0 0` beside a map that is meant to be seen.
+    // Exporters write `Kd 0 0 0` beside a map that is meant to be visible.
     if (to.albedo_map >= 0 && to.albedo == Vec3f{}) to.albedo = {1.0f, 1.0f, 1.0f};
     to.alpha = unit(from.dissolve);
     if (to.alpha < 1.0f) to.alpha_mode = AlphaMode::Blend;

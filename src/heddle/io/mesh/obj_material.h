@@ -10,16 +10,16 @@
 
 namespace heddle {
 
-/// Turns .mtl materials into heddle's; an image that several of them use is loaded once.
+/// Converts .mtl materials to heddle's; an image that several of them use is loaded once.
 class ObjMaterials {
 public:
-    /// @param folder    where image names start
+    /// @param folder    image names are relative to it
     /// @param geometry  receives textures and notes; must outlive this
     ObjMaterials(std::filesystem::path folder, Geometry& geometry)
         : folder_(std::move(folder)), geometry_(geometry) {}
 
-    /// Reads Kd, d, Pr or Ns, Pm, aniso, anisor, map_Kd, map_d and norm or a bump map that is a
-    /// normal map; notes which other maps were left out.
+    /// Reads Kd, d, Pr or Ns, Pm, aniso, anisor, map_Kd, map_d and norm, or a bump map that is a
+    /// normal map; notes which other maps are ignored.
     [[nodiscard]] Material convert(const tinyobj::material_t& from);
 
 private:

@@ -42,6 +42,60 @@ TEST_F(ReadObj, NegativeIndicesContinuedLinesAndCarriageReturnsAreRead) {
     EXPECT_EQ(g.meshes[0].positions.at(2), (Vec3f{1.0f, 1.0f, 0.0f}));
 }
 
+/// `text` with every line break replaced by `end`.
+std::string with_line_ends(const std::string& text, const std::string& end) {
+    std::string out;
+    for (const char c : text) out += c == '\n' ? end : std::string(1, c);
+    return out;
+}
+
+TEST_F(ReadObj, LinesEndWithACarriageReturnALineFeedOrBoth) {
+    write("m.mtl", "newmtl red\rKd 1 0 0\r");
+    const std::string text = "# a comment\nmtllib m.mtl\n" + std::string(kSquare) +
+                             "usemtl red\nf 1 2 \\\n3 4\n# the end";
+    for (const char* end : {"\n", "\r\n", "\r"}) {
+        const Geometry g = read(with_line_ends(text, end));
+        ASSERT_EQ(g.meshes.size(), 1u);
+        EXPECT_EQ(g.meshes[0].triangles.size(), 2u);
+        EXPECT_EQ(g.meshes[0].positions.size(), 4u);
+        EXPECT_EQ(g.materials.at(0).albedo, (Vec3f{1.0f, 0.0f, 0.0f}));
+        EXPECT_TRUE(g.notes.empty());
+    }
+}
+
+TEST_F(ReadObj, WhatIsBadIsTheSameErrorWithEveryLineEnd) {
+    const std::string square = kSquare;
+    for (const std::string& text :
+         {square + "f 1 2 3000000\n", square + "f 1 2 5\n", square + "f 1//7 2//7 3//7\n",
+          square + "f 1/2 2/2 3/2\n", square + "l 1 9\n", square + "# a\nv nan 0 0\nf 1 2 5\n"}) {
+        const std::string expected = error(text);
+        EXPECT_NE(expected, "no error");
+        EXPECT_EQ(error(with_line_ends(text, "\r")), expected);
+        EXPECT_EQ(error(with_line_ends(text, "\r\n")), expected);
+    }
+    EXPECT_NE(error(square + "# a\rf 1 2 5\n").find("a.obj:6: names vertex 5 of 4"),
+              std::string::npos)
+        << "one alone in a file of line feeds ends a line too";
+}
+
+TEST_F(ReadObj, ACornerThatEndsWithASlashHasNoMoreThanStandsBeforeIt) {
+    const std::string lists = std::string(kSquare) + "vt 0 0\nvt 1 0\nvt 0 1\nvn 0 0 1\n";
+    for (const char* face : {"f 1/ 2 3\n", "f 1/ 2/ 3/\n", "f 1/\t2/ 3\n", "f 1 2 3/\n"}) {
+        for (const std::string& before : {std::string(kSquare), lists}) {
+            const Geometry g = read(before + face);
+            ASSERT_EQ(g.meshes.at(0).triangles.size(), 1u) << face;
+            EXPECT_TRUE(g.meshes[0].uvs.empty()) << face;
+            EXPECT_EQ(g.meshes[0].positions.at(1), (Vec3f{1.0f, 0.0f, 0.0f})) << face;
+        }
+    }
+    const Geometry g = read(lists + "f 1/1/ 2/2/ 3/3/\n");
+    EXPECT_TRUE(g.meshes.at(0).normals.empty());
+    EXPECT_EQ(g.meshes[0].uvs.at(1).u, 1.0f);
+    EXPECT_EQ(read(lists + "l 1/ 2\n").curves.at(0).points.size(), 2u);
+    EXPECT_NE(error(lists + "f 1// 2 3\n").find("which names no normal"), std::string::npos);
+    EXPECT_NE(error(lists + "f 1/1/1/ 2 3\n"), "no error");
+}
+
 TEST_F(ReadObj, UvIsTurnedToRunDownTheImageAndSeamsSplitVertices) {
     const Geometry g =
         read(std::string(kSquare) + "vt 0 0.25\nvt 1 0\nvt 1 1\nvt 0.5 0.5\nvn 0 0 2\n"
@@ -86,7 +140,7 @@ TEST_F(ReadObj, MapsAreLoadedAndAlphaIsPutIntoTheColour) {
               (std::vector<std::uint8_t>{10, 20, 30, 77}));
     ASSERT_GE(leaf.normal_map, 0);
     EXPECT_FALSE(g.textures.at(static_cast<std::size_t>(leaf.normal_map)).srgb);
-    const Mesh& mesh = g.meshes.at(0); // flat normals were made for the tangents
+    const Mesh& mesh = g.meshes.at(0); // tangents need normals: flat ones were made
     ASSERT_EQ(mesh.tangents.size(), 3u);
     EXPECT_NEAR(mesh.tangents[0].x, 1.0f, 1e-6f);
     EXPECT_EQ(mesh.tangents[0].w, 1.0f);

@@ -9,13 +9,14 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <span>
 #include <string_view>
 
 namespace heddle {
 namespace {
 
-constexpr std::string_view kBlank = " \t\r";
-constexpr int kMaxCorners = 4096; // cutting a polygon takes time quadratic in its corners
+constexpr std::string_view kBlank = " \t";
+constexpr int kMaxCorners = 4096; // triangulation takes time quadratic in the corners
 
 std::string_view next_token(std::string_view& rest) {
     const std::size_t start = std::min(rest.find_first_not_of(kBlank), rest.size());
@@ -38,16 +39,22 @@ class ObjChecker {
 public:
     explicit ObjChecker(std::string path) : path_(std::move(path)) {}
 
-    /// True where the statement is one that the parser should see.
-    bool accept(std::string_view statement, std::int64_t line) {
+    /// True if the parser needs the statement, which may be changed.
+    bool accept(std::span<char> statement, std::int64_t line) {
         line_ = line;
-        std::string_view rest = statement;
+        std::string_view rest(statement.data(), statement.size());
         const std::string_view keyword = next_token(rest);
         if (keyword == "v") return check_numbers(rest, kPosition, 3);
         if (keyword == "vt") return check_numbers(rest, kUv, 1);
         if (keyword == "vn") return check_numbers(rest, kNormal, 3);
-        if (keyword == "f") return check_corners(rest, "face", 3);
-        if (keyword == "l") return check_corners(rest, "line", 2);
+        if (keyword == "f" || keyword == "l") {
+            if (keyword == "f")
+                check_corners(rest, "face", 3);
+            else
+                check_corners(rest, "line", 2);
+            blank_last_slashes(statement);
+            return true;
+        }
         if (keyword == "mtllib") {
             const std::size_t start = std::min(rest.find_first_not_of(kBlank), rest.size());
             libraries.emplace_back(rest.substr(start, rest.find_last_not_of(kBlank) + 1 - start));
@@ -55,7 +62,7 @@ public:
         return keyword == "usemtl";
     }
 
-    /// Indices that count from the start may name what comes later: looked at when all is read.
+    /// Positive indices may refer to later lines: checked at the end of the file.
     void finish() {
         for (std::size_t kind = 0; kind < 3; ++kind) {
             if (largest_[kind].index <= count_[kind]) continue;
@@ -85,12 +92,12 @@ private:
             const std::string_view token = next_token(rest);
             if (!is_finite_number(token))
                 fail(str(kNames[kind], " ", count_[kind], " has '", token.substr(0, 40), "' where ",
-                         "a finite number must stand"));
+                         "a finite number is needed"));
         }
         return true;
     }
 
-    bool check_corners(std::string_view rest, const char* what, int needed) {
+    void check_corners(std::string_view rest, const char* what, int needed) {
         int corners = 0;
         for (std::string_view token = next_token(rest); !token.empty(); token = next_token(rest)) {
             check_corner(token, what);
@@ -99,7 +106,16 @@ private:
         if (corners < needed || corners > kMaxCorners)
             fail(str("a ", what, " has ", corners, " corners, allowed are ", needed, " to ",
                      kMaxCorners));
-        return true;
+    }
+
+    /// Removes the slash of `1/` and `1/2/`: the parser would look for an index after it, and find
+    /// that of the next corner.
+    static void blank_last_slashes(std::span<char> statement) {
+        for (std::size_t i = 0; i < statement.size(); ++i) {
+            const bool last = i + 1 == statement.size() ||
+                              kBlank.find(statement[i + 1]) != std::string_view::npos;
+            if (statement[i] == '/' && last) statement[i] = ' ';
+        }
     }
 
     /// `v`, `v/vt`, `v//vn` or `v/vt/vn`
@@ -121,7 +137,7 @@ private:
             if (stop == end) return;
             if (*stop != '/') break;
             at = stop + 1;
-            if (at == end) return; // `1/` and `1/2/` are seen in the wild
+            if (at == end && kind != kNormal) return; // some files have `1/` and `1/2/`
         }
         fail(str("a ", what, " has the corner '", token.substr(0, 40), "', expected v/vt/vn"));
     }
@@ -129,7 +145,7 @@ private:
     void note_index(std::size_t kind, std::int64_t index) {
         if (index < 0 && -index > count_[kind])
             fail(str("names ", kNames[kind], " ", index, ", and only ", count_[kind],
-                     " stand before it"));
+                     " come before it"));
         if (index > largest_[kind].index) largest_[kind] = {index, line_};
     }
 
@@ -139,18 +155,28 @@ private:
     std::array<Largest, 3> largest_{};
 };
 
-/// End of the statement that begins at `start`; a backslash joins the next line to it.
+/// Makes every line break one '\n': "\r\n", and the single '\r' of old Macs, at which the parser
+/// ends a line too. The checks and the parser then find the same lines.
+void unify_line_ends(std::string& text) {
+    std::size_t kept = std::min(text.find('\r'), text.size());
+    for (std::size_t i = kept; i < text.size(); ++i) {
+        const bool pair = text[i] == '\r' && i + 1 < text.size() && text[i + 1] == '\n';
+        if (pair) ++i;
+        text[kept++] = text[i] == '\r' ? '\n' : text[i];
+    }
+    text.resize(kept);
+}
+
+/// The end of the statement that begins at `start`; a backslash joins the next line to it.
 std::size_t statement_end(std::string& text, std::size_t start, std::int64_t& line) {
     std::size_t end = start;
     while (true) {
         const std::size_t part = end;
         end = text.find('\n', part);
         ++line;
-        std::size_t last = end;
-        if (last > part && text[last - 1] == '\r') --last;
-        if (last == part || text[last - 1] != '\\' || end + 1 == text.size()) return end;
-        for (std::size_t i = last - 1; i <= end; ++i) text[i] = ' ';
-        ++end;
+        if (end == part || text[end - 1] != '\\' || end + 1 == text.size()) return end;
+        text[end - 1] = ' ';
+        text[end++] = ' ';
     }
 }
 
@@ -158,18 +184,19 @@ std::size_t statement_end(std::string& text, std::size_t start, std::int64_t& li
 
 ObjText read_obj_text(const std::filesystem::path& path) {
     std::string text = read_whole_file(path.string(), kAnySize);
-    text.push_back('\n'); // every statement now ends with one
+    text.push_back('\n'); // so that every statement ends with one
     if (const std::size_t zero = text.find('\0'); zero != std::string::npos)
         throw Error(ErrorCode::BadFile, "a zero byte stands in it, an .obj file is text",
                     "check what kind of file it is",
                     {.path = path.string(), .offset = static_cast<std::int64_t>(zero)});
+    unify_line_ends(text);
     ObjChecker checker(path.string());
-    std::size_t kept = 0; // what is kept moves to the front of the same text
+    std::size_t kept = 0; // statements that are kept move to the front
     std::int64_t line = 0;
     for (std::size_t start = 0; start < text.size();) {
         const std::int64_t first_line = line + 1;
         const std::size_t end = statement_end(text, start, line);
-        if (checker.accept(std::string_view(text).substr(start, end - start), first_line)) {
+        if (checker.accept(std::span(text).subspan(start, end - start), first_line)) {
             std::memmove(text.data() + kept, text.data() + start, end - start);
             kept += end - start;
             text[kept++] = '\n';

@@ -25,7 +25,7 @@ Placement placement_from(Vec3d translation, const std::array<double, 4>& rotatio
 void append_placed(const Mesh& local, const Placement& place, Mesh& world) {
     const double determinant = dot(place.x, cross(place.y, place.z));
     const bool mirrors = determinant < 0.0;
-    // The inverse transpose up to a positive factor; finite where the map flattens space too.
+    // The inverse transpose up to a positive factor; also finite if the map flattens space.
     const double sign = mirrors ? -1.0 : 1.0;
     const Placement turn_normal{cross(place.y, place.z) * sign, cross(place.z, place.x) * sign,
                                 cross(place.x, place.y) * sign};

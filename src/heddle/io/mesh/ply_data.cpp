@@ -46,7 +46,7 @@ double value_of(const std::array<std::byte, 8>& raw) {
     return static_cast<double>(value);
 }
 
-/// @param raw  the value's bytes in the machine's order, from the first
+/// @param raw  the value's bytes in the machine's order, at the front
 double decode(PlyType type, const std::array<std::byte, 8>& raw) {
     switch (type) {
     case PlyType::I8: return value_of<std::int8_t>(raw);
@@ -138,7 +138,7 @@ void PlyData::read_header_line(const std::string& line) {
             fail(str("element '", element.name, "' has the count '", count, "'"));
         elements_.push_back(std::move(element));
     } else if (keyword == "property") {
-        if (elements_.empty()) fail("a property stands before the first element");
+        if (elements_.empty()) fail("a property comes before the first element");
         if (elements_.back().properties.size() == kMaxProperties)
             fail(str("an element has more than ", kMaxProperties, " properties"));
         std::array<std::string, 4> word;
@@ -164,7 +164,7 @@ double PlyData::next_number() {
     const auto [stop, error] = std::from_chars(start, end, value);
     if (error != std::errc{} || (stop != end && !is_blank(*stop))) {
         const char* word = std::find_if(start, end, is_blank);
-        fail(str("'", std::string(start, std::min(word, start + 40)), "' is no number"));
+        fail(str("'", std::string(start, std::min(word, start + 40)), "' is not a number"));
     }
     at_ = static_cast<std::size_t>(stop - text_.data());
     return value;
@@ -184,13 +184,12 @@ double PlyData::next(PlyType type) {
 }
 
 std::uint64_t PlyData::least_bytes(PlyType type) const {
-    return format_ == PlyFormat::Ascii ? 2
-                                       : size_of(type); // a digit and what parts it from the next
+    return format_ == PlyFormat::Ascii ? 2 : size_of(type); // a digit and a separator
 }
 
 std::uint64_t PlyData::next_count(const PlyProperty& property) {
     const double count = next(property.count_type);
-    const std::uint64_t left = text_.size() - at_ + 1; // the last number of a text ends with it
+    const std::uint64_t left = text_.size() - at_ + 1; // a text's last number ends with it
     if (!(count >= 0.0) || count != std::floor(count) ||
         count * static_cast<double>(least_bytes(property.type)) > static_cast<double>(left))
         fail(str("list '", property.name, "' has the length ", count, ", and only ", left - 1,

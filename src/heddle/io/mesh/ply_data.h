@@ -14,7 +14,7 @@ struct PlyProperty {
     std::string name;
     PlyType type = PlyType::F32;
     bool is_list = false;
-    PlyType count_type = PlyType::U8; ///< of a list's length
+    PlyType count_type = PlyType::U8; ///< type of a list's length
 };
 
 struct PlyElement {
@@ -22,14 +22,14 @@ struct PlyElement {
     std::uint64_t count = 0;
     std::vector<PlyProperty> properties;
 
-    /// Index of the first property of one of these names; -1: there is none.
+    /// Index of the first property with one of these names; -1: there is none.
     [[nodiscard]] int find(std::initializer_list<const char*> names) const;
 };
 
-/// A .ply file: its header, and its values one after the other whatever their encoding.
+/// A .ply file: its header, then its values in order, whatever their encoding.
 ///
-/// Debian packages no small PLY library, and Assimp (which reads PLY) drops edges and would add
-/// 100 MB of dependencies for one page of code.
+/// Debian has no package of a small PLY library, and Assimp (which reads PLY) drops edges and would
+/// add 100 MB of dependencies to replace one page of code.
 class PlyData {
 public:
     /// Reads the file and its header.
@@ -39,19 +39,19 @@ public:
     [[nodiscard]] const std::vector<PlyElement>& elements() const { return elements_; }
 
     /// The next value; a double holds each of the eight types exactly.
-    /// @throws BadFile where the file ends or the text is no number
+    /// @throws BadFile: the file ends, or the text is not a number
     double next(PlyType type);
 
-    /// Length of the list that starts here, checked against what is left of the file.
+    /// The length of the list that starts here, checked against the rest of the file.
     std::uint64_t next_count(const PlyProperty& property);
 
-    /// Passes over a property's value.
+    /// Skips the value of a property.
     void skip(const PlyProperty& property);
 
-    /// Checks that the rows of `element` can be in what is left of the file.
+    /// Checks that the rows of `element` fit into the rest of the file.
     void check_rows(const PlyElement& element) const;
 
-    /// Throws BadFile with the present place.
+    /// Throws BadFile at the current position.
     [[noreturn]] void fail(const std::string& what) const;
 
 private:

@@ -25,7 +25,7 @@ constexpr const char* kSquare =
     "element face 1\nproperty uchar quality\nproperty list uchar int vertex_indices\n";
 constexpr const char* kSquareRows = "0 0 0 9\n1 0 0 9\n1 1 0 9\n0 1 0 9\n7 4 0 1 2 3\n";
 
-/// The square's rows in binary.
+/// The rows of the square in binary.
 std::string binary_rows(bool big_endian) {
     std::string out;
     const auto put = [&](auto value) {

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kAlwaysFits = 1 << 26; // bytes; asking the system costs more than a small mesh
 
-/// Every place where each mesh of the file stands, in the order of the node tree.
+/// All transforms of each mesh of the file, in the order of the node tree.
 using Placements = std::vector<std::vector<Placement>>;
 
 Vec3d vector_or(const std::vector<double>& from, Vec3d fallback) {
@@ -34,7 +34,7 @@ Placement placement_of(const tinygltf::Node& node) {
                           vector_or(node.scale, {1.0, 1.0, 1.0}));
 }
 
-/// The places that EXT_mesh_gpu_instancing gives a node's mesh; one where it has none.
+/// The transforms that EXT_mesh_gpu_instancing gives a node's mesh; one if there is none.
 std::vector<Placement> instances_of(const GltfModel& model, const tinygltf::Node& node) {
     const auto* extension = find_extension(node.extensions, "EXT_mesh_gpu_instancing");
     const auto* attributes = extension != nullptr ? find_member(*extension, "attributes") : nullptr;
@@ -66,7 +66,7 @@ std::vector<Placement> instances_of(const GltfModel& model, const tinygltf::Node
     return out;
 }
 
-/// Roots of the default scene; of a file without scenes, the nodes that are no node's child.
+/// The roots of the default scene; without scenes, the nodes that are not children.
 std::vector<int> roots_of(const GltfModel& model) {
     if (!model->scenes.empty()) {
         const int scene = std::max(model->defaultScene, 0);
@@ -146,7 +146,7 @@ public:
     PrimitiveReader(const GltfModel& model, Geometry& out)
         : model_(model), out_(out), materials_(model, out) {}
 
-    /// Adds a primitive at every one of its places.
+    /// Adds a primitive with each of its transforms.
     void add(const tinygltf::Primitive& primitive, const std::vector<Placement>& places) {
         if (primitive.mode < TINYGLTF_MODE_TRIANGLES ||
             primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
@@ -193,7 +193,7 @@ private:
         for (Uv& uv : mesh.uvs) uv = used.uv.apply(uv);
         if (accessor("NORMAL") >= 0) fill(accessor("NORMAL"), "NORMAL", mesh.normals);
         if (accessor("TANGENT") >= 0) fill(accessor("TANGENT"), "TANGENT", mesh.tangents);
-        if (mesh.normals.empty()) set_flat_normals(mesh); // by glTF's rule; its tangents are void
+        if (mesh.normals.empty()) set_flat_normals(mesh); // as glTF says; its tangents are invalid
         const Material& material = out_.materials[mesh.material];
         const bool needs_tangents = material.normal_map >= 0 || material.anisotropy > 0.0f;
         if (!needs_tangents)
@@ -203,7 +203,7 @@ private:
         return mesh;
     }
 
-    /// Reads an attribute whose elements are floats alone; all attributes must be of one length.
+    /// Reads an attribute that consists of floats; all attributes must have one length.
     template <typename T>
     void fill(int accessor, const std::string& name, std::vector<T>& to) {
         constexpr std::size_t kWidth = sizeof(T) / sizeof(float);
@@ -282,8 +282,8 @@ Geometry read_gltf(const std::filesystem::path& path) try {
 } catch (const std::bad_alloc&) {
     throw Error(ErrorCode::OutOfMemory, "needs more memory than there is", "split the file",
                 {.path = path.string()});
-} catch (const std::exception& e) { // from tinygltf on what it does not expect
-    throw Error(ErrorCode::BadFile, str("is not a sound glTF file (", e.what(), ")"),
+} catch (const std::exception& e) { // of tinygltf, for unexpected input
+    throw Error(ErrorCode::BadFile, str("is not a valid glTF file (", e.what(), ")"),
                 "export the file again", {.path = path.string()});
 }
 

@@ -6,37 +6,37 @@
 
 namespace heddle {
 
-/// Triangles and polylines of a Wavefront .obj file with its .mtl materials.
+/// Reads the triangles and polylines of a Wavefront .obj file with its .mtl materials.
 ///
-/// One Mesh per material that faces use; polygons are cut into triangles; `l` lines become one
-/// CurveSet of Basis::Linear without radius. v is turned so that it runs down the image as
-/// everywhere in heddle. A mesh keeps its normals where all its corners name one. Tangents are made
-/// where the material has a normal map or anisotropy.
-/// @throws NotFound, BadFile with the line; Unsupported past 256 materials; OutOfMemory
+/// One Mesh per material that faces use; polygons are triangulated; `l` lines become one CurveSet
+/// of Basis::Linear without radius. v is flipped so that it runs down the image, as everywhere in
+/// heddle. A mesh keeps its normals if all its corners have one. Tangents are made if the material
+/// has a normal map or anisotropy.
+/// @throws NotFound, BadFile with the line; Unsupported: more than 256 materials; OutOfMemory
 [[nodiscard]] Geometry read_obj(const std::filesystem::path& path);
 
-/// Triangles and polylines of a .ply file: ascii, binary little and big endian.
+/// Reads the triangles and polylines of a .ply file: ascii, binary little and big endian.
 ///
 /// Reads `vertex` (x y z [nx ny nz] [u v | s t | texture_u texture_v] [radius]), `face`
 /// (vertex_indices or vertex_index), `tristrips` and `edge` (vertex1 vertex2, joined into chains);
-/// passes over all else. A uv's v is turned as for .obj.
+/// skips all other elements. v is flipped as for .obj.
 /// @throws NotFound, BadFile with byte or line; OutOfMemory
 [[nodiscard]] Geometry read_ply(const std::filesystem::path& path);
 
-/// Triangles of the default scene of a .gltf or .glb file in world space.
+/// Reads the triangles of the default scene of a .gltf or .glb file, in world space.
 ///
-/// One Mesh per primitive, all its instances in it: node transforms and EXT_mesh_gpu_instancing are
+/// One Mesh per primitive, with all its instances: node transforms and EXT_mesh_gpu_instancing are
 /// applied. Materials: metallic-roughness, normal map, alpha, KHR_materials_anisotropy,
-/// KHR_texture_transform, the albedo of KHR_materials_pbrSpecularGlossiness. Flat normals where the
-/// file has none (as glTF asks), tangents where the material needs them. A map whose image is
-/// missing or unreadable is dropped, or taken from a file of the same stem, with a note.
-/// @throws NotFound, BadFile; Unsupported for compressed geometry and past 256 materials;
+/// KHR_texture_transform, the albedo of KHR_materials_pbrSpecularGlossiness. Normals are flat if
+/// the file has none (as glTF demands); tangents are made if the material needs them. A map whose
+/// image is missing or unreadable is dropped, or replaced by a file of the same stem, with a note.
+/// @throws NotFound, BadFile; Unsupported: compressed geometry or more than 256 materials;
 ///         OutOfMemory
 [[nodiscard]] Geometry read_gltf(const std::filesystem::path& path);
 
 /// Makes `height` the height map of every material: a surface point moves along its normal by
 /// offset + scale x height, scene units.
-/// @param height  its first channel counts, 0 to 1
+/// @param height  the first channel is used, 0 to 1
 /// @throws InvalidArgument for an empty texture, a scale or offset that is not finite, or meshes
 ///         without uv
 void set_height_map(Geometry& geometry, Texture height, float scale, float offset);

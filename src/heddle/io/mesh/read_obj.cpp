@@ -3,6 +3,7 @@
 #include <heddle/base/error.h>
 #include <heddle/io/file/input_file.h>
 #include <heddle/io/mesh/add_parts.h>
+#include <heddle/io/mesh/obj_indices.h>
 #include <heddle/io/mesh/obj_material.h>
 #include <heddle/io/mesh/obj_text.h>
 #include <heddle/io/mesh/tangents.h>
@@ -20,11 +21,11 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::uint32_t kNone = ~0U;
 
-/// The text of every material library that is there, one after the other.
+/// The texts of all material libraries that exist, concatenated.
 std::string read_libraries(const fs::path& folder, const ObjText& obj, Geometry& out) {
     std::string text;
     for (const std::string& line : obj.libraries) {
-        std::vector<std::string> names{line}; // one name with blanks, or several names
+        std::vector<std::string> names{line}; // one name with blanks or several names
         if (!fs::is_regular_file(folder / line)) {
             std::istringstream words(line);
             names.assign(std::istream_iterator<std::string>(words), {});
@@ -41,7 +42,7 @@ std::string read_libraries(const fs::path& folder, const ObjText& obj, Geometry&
     return text;
 }
 
-/// Builds one mesh per material from corners that index position, uv and normal apart.
+/// Builds one mesh per material from corners that have separate indices of position, uv and normal.
 class ObjMeshes {
 public:
     ObjMeshes(const tinyobj::attrib_t& attrib, Geometry& out)
@@ -60,7 +61,7 @@ public:
         return out_.meshes.size() - 1;
     }
 
-    /// Drops arrays that no corner, or not every corner, filled.
+    /// Drops arrays that were not filled by every corner.
     void finish() {
         for (std::size_t m = 0; m < out_.meshes.size(); ++m) {
             Mesh& mesh = out_.meshes[m];
@@ -76,7 +77,7 @@ public:
     }
 
 private:
-    /// A vertex already made from a position, in a chain per position.
+    /// A vertex that was made from a position; the vertices of a position form a chain.
     struct Made {
         tinyobj::index_t index;
         std::size_t mesh;
@@ -131,7 +132,7 @@ private:
 void add_meshes(const tinyobj::ObjReader& obj, const fs::path& path, Geometry& out) {
     ObjMaterials materials(path.parent_path(), out);
     ObjMeshes meshes(obj.GetAttrib(), out);
-    std::map<int, std::size_t> mesh_of; // by the file's material
+    std::map<int, std::size_t> mesh_of; // by material of the file
     for (const tinyobj::shape_t& shape : obj.GetShapes()) {
         for (std::size_t t = 0; t < shape.mesh.material_ids.size(); ++t) {
             const int id = shape.mesh.material_ids[t];
@@ -184,7 +185,7 @@ Geometry read_obj(const fs::path& path) try {
     out.name = path.stem().string();
     ObjText text = read_obj_text(path);
     const std::string library = read_libraries(path.parent_path(), text, out);
-    text.statements.insert(0, "mtllib library\n"); // where the parser asks for `library`
+    text.statements.insert(0, "mtllib library\n"); // here the parser asks for `library`
     tinyobj::ObjReader obj;
     tinyobj::ObjReaderConfig config;
     config.vertex_color = false;
@@ -192,6 +193,7 @@ Geometry read_obj(const fs::path& path) try {
         throw Error(ErrorCode::BadFile, obj.Error(), "export the file again",
                     {.path = path.string()});
     text = {};
+    check_obj_indices(obj.GetAttrib(), obj.GetShapes(), path);
     add_meshes(obj, path, out);
     add_lines(obj, path, out);
     if (out.meshes.empty() && out.curves.empty())

@@ -12,7 +12,7 @@
 namespace heddle {
 namespace {
 
-/// What the elements of a file filled, before it becomes a Geometry.
+/// The data of a file's elements, before they become a Geometry.
 struct PlyParts {
     Mesh mesh;
     std::vector<float> radius;
@@ -20,7 +20,7 @@ struct PlyParts {
     std::uint64_t small_faces = 0; ///< with fewer than 3 corners
 };
 
-/// Reads a row's values in file order; what is not wanted is passed over.
+/// Reads a row's values in file order; lists are skipped.
 void read_row(PlyData& file, const PlyElement& element, std::vector<double>& row) {
     row.assign(element.properties.size(), 0.0);
     for (std::size_t i = 0; i < row.size(); ++i) {
@@ -32,7 +32,7 @@ void read_row(PlyData& file, const PlyElement& element, std::vector<double>& row
     }
 }
 
-/// Columns of a vector attribute; used where all are there.
+/// The columns of a vector attribute; used if all exist.
 template <std::size_t N>
 struct Columns {
     std::array<int, N> index{};
@@ -101,7 +101,7 @@ void read_faces(PlyData& file, const PlyElement& element, PlyParts& out) {
     }
 }
 
-/// Strips end with -1; every other triangle of a strip turns the other way   [Stanford archive]
+/// Strips end with -1; every other triangle of a strip has reversed winding   [Stanford archive]
 void read_strips(PlyData& file, const PlyElement& element, PlyParts& out) {
     const int wanted = element.find({"vertex_indices", "vertex_index"});
     if (wanted != 0 || element.properties.size() != 1 || !element.properties[0].is_list)

@@ -36,7 +36,7 @@ Bounds bounds_of(const Geometry& g) {
     return bounds;
 }
 
-/// Every array is as long as the positions or empty, every index in range, every frame unit.
+/// Every array is empty or as long as the positions, every index in range, every frame unit.
 void expect_sound(const Geometry& g) {
     for (const Mesh& mesh : g.meshes) {
         const std::size_t n = mesh.positions.size();
@@ -117,7 +117,7 @@ TEST_F(RealMesh, DamagedHelmetStandsUprightWithTangentsOfOurOwn) {
     EXPECT_EQ(texture(g, g.materials[0].normal_map).width, 2048);
     EXPECT_TRUE(texture(g, g.materials[0].albedo_map).srgb);
     EXPECT_FALSE(texture(g, g.materials[0].metal_rough_map).srgb);
-    // the file's z becomes y: its node turns by 90 degrees about x
+    // the file's z becomes y: its node rotates by 90 degrees about x
     EXPECT_NEAR(bounds_of(g).hi.z, 0.8128, 1e-3);
     EXPECT_NEAR(bounds_of(g).hi.y, 0.9010, 1e-3);
     expect_sound(g);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t kNone = ~0U;
 
-/// What two vertices must share to be one: position, normal, uv. Adding 0 makes -0 and 0 equal.
+/// Vertices with equal position, normal and uv are one vertex. Adding 0 makes -0 and 0 equal.
 struct WeldKey {
     float values[8];
     bool operator==(const WeldKey& other) const {
@@ -32,7 +32,7 @@ struct WeldHash {
     }
 };
 
-/// Per vertex, the first vertex that equals it.
+/// Per vertex, the first vertex that is equal to it.
 std::vector<std::uint32_t> weld(const Mesh& mesh) {
     std::unordered_map<WeldKey, std::uint32_t, WeldHash> first;
     first.reserve(mesh.positions.size());
@@ -49,7 +49,7 @@ std::vector<std::uint32_t> weld(const Mesh& mesh) {
 }
 
 struct Frame {
-    Vec3d along;          ///< direction of growing u; not unit
+    Vec3d along;          ///< direction of increasing u; not unit
     double uv_area = 0.0; ///< twice the signed area in (u, v); 0: no frame
 };
 
@@ -98,12 +98,12 @@ private:
 struct Edge {
     std::uint32_t low, high; ///< welded vertices
     bool mirrored;
-    std::uint32_t at_low, at_high; ///< the triangle's corners there
+    std::uint32_t at_low, at_high; ///< the triangle's corners at these vertices
     [[nodiscard]] auto key() const { return std::tie(low, high, mirrored); }
     [[nodiscard]] auto order() const { return std::tie(low, high, mirrored, at_low); }
 };
 
-/// Joins the corners of triangles of equal handedness across the edges that they share.
+/// Joins the corners of triangles of equal handedness across their shared edges.
 CornerGroups group_corners(const Mesh& mesh,
                            const std::vector<std::uint32_t>& welded,
                            const std::vector<Frame>& frames) {
@@ -136,8 +136,8 @@ Vec3d project(Vec3d v, Vec3d normal) {
     return normalize(v - normal * dot(normal, v), Vec3d{});
 }
 
-/// A corner's part of its group's tangent: unit, times the angle of the triangle at the corner,
-/// both seen along the vertex normal.
+/// The contribution of a corner to its group's tangent: unit, times the angle of the triangle at
+/// the corner, both projected along the vertex normal.
 Vec3d weighted_tangent(const Mesh& mesh,
                        const std::array<std::uint32_t, 3>& corners,
                        std::uint32_t k,
@@ -151,7 +151,7 @@ Vec3d weighted_tangent(const Mesh& mesh,
     return project(frame.along, normal) * angle;
 }
 
-/// One tangent per corner: that of its group.
+/// The tangent of each corner, which is that of its group.
 struct CornerTangents {
     std::vector<std::uint32_t> group; ///< per corner, the root of its group; kNone: no frame
     std::vector<Vec3d> sum;           ///< at the group's root
@@ -167,7 +167,7 @@ CornerTangents corner_tangents(const Mesh& mesh, const std::vector<std::uint32_t
                        std::vector<Vec3d>(3 * frames.size()),
                        std::vector<float>(3 * frames.size(), 1.0f)};
     std::vector<std::uint32_t> group_at(welded.size(),
-                                        kNone); // a frame to borrow, by welded vertex
+                                        kNone); // a frame to reuse, by welded vertex
     for (std::uint32_t t = 0; t < frames.size(); ++t) {
         if (frames[t].uv_area == 0.0) continue;
         for (std::uint32_t k = 0; k < 3; ++k) {
@@ -186,7 +186,7 @@ CornerTangents corner_tangents(const Mesh& mesh, const std::vector<std::uint32_t
     return out;
 }
 
-/// Adds a copy of vertex `from`; its tangent is set by the caller.
+/// Adds a copy of vertex `from`; the caller sets its tangent.
 void split_vertex(Mesh& mesh, std::uint32_t from) {
     mesh.positions.push_back(mesh.positions[from]);
     mesh.normals.push_back(mesh.normals[from]);
@@ -229,7 +229,7 @@ void set_tangents(Mesh& mesh) {
     if (mesh.uvs.empty()) return;
     const CornerTangents corners = corner_tangents(mesh, weld(mesh));
 
-    // The first group that uses a vertex keeps it, every other one gets a copy.
+    // The first group that uses a vertex keeps it; every other group gets a copy.
     std::vector<std::uint32_t> owner(mesh.positions.size(), kNone);
     std::unordered_map<std::uint64_t, std::uint32_t> copies; // of (vertex, group)
     for (std::uint32_t corner = 0; corner < corners.group.size(); ++corner) {

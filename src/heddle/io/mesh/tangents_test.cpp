@@ -120,12 +120,12 @@ TEST(Tangents, ATriangleWithoutUvAreaTakesItsNeighboursFrame) {
     Mesh mesh = square();
     mesh.positions.push_back({2, 0, 0});
     mesh.normals.push_back(kUp);
-    mesh.uvs.push_back({1, 1}); // equal to that of vertex 1: no area in uv
+    mesh.uvs.push_back({1, 1}); // equal to the uv of vertex 1: no uv area
     mesh.triangles.push_back({1, 4, 2});
     set_tangents(mesh);
     EXPECT_EQ(mesh.positions.size(), 5u);
     expect_tangent(mesh.tangents[1], {1, 0, 0}, 1.0f);
-    const Tangent lone = mesh.tangents[4]; // nothing to take: any unit vector in the plane
+    const Tangent lone = mesh.tangents[4]; // no neighbour: any unit vector in the plane
     EXPECT_NEAR(length(Vec3f{lone.x, lone.y, lone.z}), 1.0f, 1e-6f);
     EXPECT_NEAR(lone.z, 0.0f, 1e-6f);
 }

@@ -10,7 +10,7 @@
 
 namespace heddle {
 
-/// A test with a folder of its own.
+/// A test with its own folder.
 class FileTest : public ::testing::Test {
 protected:
     std::filesystem::path write(const std::string& name, const std::string& bytes) const {
@@ -24,7 +24,7 @@ protected:
     std::filesystem::path folder_ = temp_.path();
 };
 
-/// The text of the Error that `call` throws, which must be one line; "no error" without one.
+/// The text of the Error that `call` throws, which must be one line; "no error" if there is none.
 inline std::string error_of(const std::function<void()>& call) {
     const std::optional<Error> error = testing::error_of(call);
     if (!error) return "no error";
@@ -32,9 +32,9 @@ inline std::string error_of(const std::function<void()>& call) {
     return error->what();
 }
 
-/// Calls `read` on every beginning of `whole`, the empty one included, and on `whole` with one
-/// bit of each byte turned; anything but a result or an Error ends the test.
-/// @return how many beginnings were read without an Error
+/// Calls `read` on every prefix of `whole`, including the empty one, and on `whole` with one bit of
+/// each byte flipped; the test fails if there is neither a result nor an Error.
+/// @return how many prefixes were read without an Error
 inline int read_damaged(const std::string& whole,
                         const std::function<void(const std::string&)>& read) {
     int accepted = 0;

@@ -21,7 +21,7 @@ constexpr int kArrayBuffer = 34962;
 constexpr int kElementArrayBuffer = 34963;
 constexpr std::array<std::byte, 4> kPadding{};
 
-/// The JSON, and the parts of the binary chunk, which are only borrowed until they are written.
+/// Builds the JSON and the list of parts of the binary chunk, which are borrowed until written.
 class GlbBuilder {
 public:
     explicit GlbBuilder(const Geometry& geometry) : geometry_(geometry) {

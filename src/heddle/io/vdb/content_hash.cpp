@@ -20,7 +20,7 @@ std::uint64_t hash_text(const std::string& text) {
     return h;
 }
 
-/// Sum over the voxels: the same in any order, so it needs no sorting and adds up over threads.
+/// A sum over the voxels: independent of their order, no sorting, and threads can add up.
 std::uint64_t hash_voxels(const GridLeaves& grid, std::uint64_t seed) {
     const auto part = [&](std::size_t begin, std::size_t end) {
         std::uint64_t sum = 0;

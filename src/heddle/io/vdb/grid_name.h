@@ -5,7 +5,7 @@
 
 namespace heddle {
 
-/// The grids of a Heddle .vdb; docs/format.md says what each holds.
+/// The grids of a Heddle .vdb; docs/format.md describes them.
 enum class GridKind : std::uint8_t {
     Density,       ///< float
     Tangent,       ///< vec3s
@@ -23,20 +23,20 @@ enum class GridKind : std::uint8_t {
     Sums           ///< int64, 7 or 19 grids per lobe
 };
 
-/// Name of a grid in the file: "density", "columns_z", "lobe_1", "sums_1_6"; from level 1 on
-/// "lobe_1_level_2".
-/// @param index  axis or lobe from 0; ignored where a voxel has one value
+/// The name of a grid in the file: "density", "columns_z", "lobe_1", "sums_1_6"; from level 1 on
+/// with a suffix: "lobe_1_level_2".
+/// @param index  axis or lobe, from 0; ignored if a voxel has one value
 /// @param level  from 0, the finest
-/// @param part   of GridKind::Sums: which of a lobe's sums, from 0
+/// @param part   for GridKind::Sums: which of a lobe's sums, from 0
 [[nodiscard]] std::string grid_name(GridKind kind, int index = 0, int level = 0, int part = 0);
 
 /// A grid's name without its level, and the level.
 struct GridStem {
     std::string stem; ///< "lobe_1"
-    int level = 0;    ///< -1: the suffix has a number, but none that grid_name gives
+    int level = 0;    ///< -1: the suffix has a number, but none that grid_name writes
 };
 
-/// The reverse of what `level` does in grid_name.
+/// Splits a name of grid_name into stem and level.
 [[nodiscard]] GridStem split_grid_name(const std::string& name);
 
 } // namespace heddle

@@ -21,9 +21,9 @@ namespace {
 
 constexpr std::uint32_t kFlags = openvdb::io::COMPRESS_BLOSC | openvdb::io::COMPRESS_ACTIVE_MASK;
 
-/// How a tree of one type is stored.
+/// How a tree of one value type is stored.
 struct ValueType {
-    std::size_t bytes = 0;  ///< of a background or an inactive value
+    std::size_t bytes = 0;  ///< of the background or an inactive value
     std::size_t stored = 0; ///< of an active value
     [[nodiscard]] bool half() const { return stored != bytes; }
 };
@@ -43,7 +43,7 @@ ValueType value_type(const GridEntry& grid, const std::string& path) {
                 "leave it out", {.path = path});
 }
 
-/// A grid's bytes, read front to back; every read is checked.
+/// The bytes of a grid, read front to back; every read is checked.
 class Bytes {
 public:
     Bytes(const std::vector<char>& data, const GridEntry& grid, const std::string& path)
@@ -87,13 +87,13 @@ private:
 
 /// The stored values of one node.
 struct Chunk {
-    const char* data = nullptr; ///< an int64 size and that many bytes; null: no values
-    std::size_t size = 0;       ///< of all that
+    const char* data = nullptr; ///< an int64 size and then that many bytes; null: no values
+    std::size_t size = 0;       ///< of both together
     std::size_t values = 0;
-    bool all = false; ///< inactive values are among them
+    bool all = false; ///< includes inactive values
 };
 
-/// Steps over a node's values, after its masks.
+/// Skips a node's values, which follow its masks.
 Chunk take_values(Bytes& in, ValueType type, std::size_t active, std::size_t total) {
     using namespace openvdb::io;
     Chunk chunk{nullptr, 0, active, false};
@@ -112,7 +112,7 @@ Chunk take_values(Bytes& in, ValueType type, std::size_t active, std::size_t tot
     const char* head = in.take(8);
     std::int64_t n = 0;
     std::memcpy(&n, head, 8);
-    if (n <= 0) { // not compressed: -n bytes
+    if (n <= 0) { // uncompressed: -n bytes
         if (n != -static_cast<std::int64_t>(raw))
             in.fail(str("a chunk of ", -n, " bytes, not ", raw));
         in.take(raw);
@@ -198,12 +198,12 @@ std::vector<GridLeaves::Leaf> read_topology(Bytes& in, ValueType type) {
     return leaves;
 }
 
-/// A stream over bytes that are there already.
+/// A stream over bytes in memory.
 class MemoryStream : private std::streambuf, public std::istream {
 public:
     MemoryStream(const char* data, std::size_t size)
         : std::istream(static_cast<std::streambuf*>(this)) {
-        char* from = const_cast<char*>(data); // streambuf has no const; nothing is put back
+        char* from = const_cast<char*>(data); // streambuf has no const; nothing is written
         setg(from, from, from + size);
     }
 };

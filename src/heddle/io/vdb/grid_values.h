@@ -14,15 +14,15 @@
 #include <type_traits>
 #include <vector>
 
-// What each grid of the file holds of a voxel. One struct a kind: `has` says whether voxel v of the
-// block, whose first lobe is l, is active in the grid; `value` is what is written; `put` takes it
-// back, into arrays that have their size. What follows from other grids has no `put`.
+// The values that each grid of the file stores for a voxel, one struct per kind. `has`: whether
+// voxel v of the block, whose first lobe is l, is active in the grid; `value`: the value that is
+// written; `put` stores it in the block's arrays, already resized. Derived grids have no `put`.
 
 namespace heddle {
 
-static_assert(std::endian::native == std::endian::little, "values are written as they lie");
+static_assert(std::endian::native == std::endian::little, "values are written unchanged");
 
-/// The little-endian integer that holds the bytes of `a` and then zeros.
+/// The little-endian integer with the bytes of `a`, followed by zeros.
 template <typename Integer, typename T>
 [[nodiscard]] Integer bytes_as(const T& a) {
     static_assert(sizeof(T) <= sizeof(Integer));
@@ -31,7 +31,7 @@ template <typename Integer, typename T>
     return out;
 }
 
-/// The reverse: the lowest bytes of `value`.
+/// The reverse: a T of the lowest bytes of `value`.
 template <typename T, typename Integer>
 [[nodiscard]] T from_bytes(Integer value) {
     static_assert(sizeof(T) <= sizeof(Integer));
@@ -41,8 +41,8 @@ template <typename T, typename Integer>
     return out;
 }
 
-/// Mean over the axes of -ln(1 - c_a) / h_a, c_a at most 1 - 1 / (2 columns): extinction per scene
-/// unit.
+/// Extinction per scene unit: the mean over the axes of -ln(1 - c_a) / h_a, where c_a is at most 1
+/// - 1 / (2 columns).
 struct DensityValues {
     using Value = float;
     std::vector<double> depth; ///< -ln(1 - c), by coverage
@@ -64,10 +64,10 @@ struct DensityValues {
     }
 };
 
-/// Principal direction of the heaviest lobe, where its material is of one kind.
+/// Principal direction of the heaviest lobe, if its material is of one kind.
 struct DirectionValues {
     using Value = Vec3f;
-    std::array<bool, 256> wanted{}; ///< by material
+    std::array<bool, 256> wanted{}; ///< by material id
 
     DirectionValues(const std::vector<Material>& materials, MaterialKind kind) {
         const std::size_t n = std::min<std::size_t>(materials.size(), 256);
@@ -81,7 +81,7 @@ struct DirectionValues {
     }
 };
 
-/// What the grids that are active in every voxel share.
+/// Shared by the grids that are active in every voxel.
 struct OfVoxel {
     [[nodiscard]] bool has(const VoxelBlock&, std::size_t, std::size_t) const { return true; }
     [[nodiscard]] bool every_voxel() const { return true; }
@@ -97,7 +97,7 @@ struct CoverageValues : OfVoxel {
     }
 };
 
-/// One axis' columns.
+/// The columns along one axis.
 struct ColumnValues : OfVoxel {
     using Value = std::int64_t;
     std::size_t axis = 0;
@@ -109,7 +109,7 @@ struct ColumnValues : OfVoxel {
     }
 };
 
-/// One axis' footprint of 8 x 8 cells.
+/// The footprint of 8 x 8 cells along one axis.
 struct FootprintAxisValues : OfVoxel {
     using Value = std::int64_t;
     std::size_t axis = 0;
@@ -121,7 +121,7 @@ struct FootprintAxisValues : OfVoxel {
     }
 };
 
-/// The footprints of 4 x 4 cells: 16 bits an axis.
+/// The footprints of 4 x 4 cells: 16 bits per axis.
 struct FootprintValues : OfVoxel {
     using Value = std::int64_t;
     using Words = std::array<std::uint16_t, 3>;
@@ -148,7 +148,7 @@ struct CorrelationValues : OfVoxel {
     }
 };
 
-/// With two lobes there is one order only.
+/// Merge orders; two lobes have only one, so it is stored for voxels with more.
 struct MergeValues {
     using Value = std::int32_t;
     [[nodiscard]] bool has(const VoxelBlock& b, std::size_t v, std::size_t) const {
@@ -163,7 +163,7 @@ struct MergeValues {
     }
 };
 
-/// What the grids of lobe `k` share: active where a voxel has more than k lobes.
+/// Shared by the grids of lobe `k`: active in voxels with more than k lobes.
 struct OfLobe {
     std::size_t k = 0;
     [[nodiscard]] bool has(const VoxelBlock& b, std::size_t v, std::size_t) const {
@@ -221,11 +221,11 @@ struct AnisoValues : OfLobe {
 inline constexpr std::size_t kMomentSums = sizeof(LobeMoment) / sizeof(std::int64_t);
 inline constexpr std::size_t kMapSums = sizeof(MapSums) / sizeof(std::int64_t);
 
-/// One of the sums of a lobe: those of LobeMoment in its order, then those of MapSums.
+/// One of the sums of a lobe: first those of LobeMoment, then those of MapSums.
 struct SumValues : OfLobe {
     using Value = std::int64_t;
     std::size_t part = 0;
-    /// Where it lies: the structs are nothing but 64-bit numbers.
+    /// A pointer to it: the structs consist of 64-bit numbers.
     template <typename Block>
     [[nodiscard]] auto place(Block& b, std::size_t l) const {
         using Byte = std::conditional_t<std::is_const_v<Block>, const char, char>;
@@ -243,8 +243,8 @@ struct SumValues : OfLobe {
     }
 };
 
-/// Calls put(x, bit, v, l) for each voxel of the leaf that is active in the grid, in the leaf's
-/// order.
+/// Calls put(x, bit, v, l) for each voxel of the leaf that is active in the grid, in the order of
+/// the leaf.
 template <typename Values, typename Put>
 void for_each_in_grid(const VoxelBlock& block,
                       const VoxelLeaf& leaf,

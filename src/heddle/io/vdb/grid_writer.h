@@ -17,8 +17,8 @@
 #include <string>
 #include <vector>
 
-// The two parts of a VDB grid that depend on its voxels, byte for byte as a tree of standard
-// configuration (5, 4, 3 bits) writes them with active-mask and Blosc compression.
+// The two parts of a VDB grid that depend on its voxels, with the bytes that a tree of the standard
+// configuration (5, 4, 3 bits) writes with active-mask and Blosc compression.
 
 namespace heddle {
 
@@ -27,8 +27,8 @@ void write_raw(std::ostream& out, const T& value) {
     out.write(reinterpret_cast<const char*>(&value), sizeof(T));
 }
 
-/// The values of a node: none but its active ones, the others are background.
-/// @param half  VDB's half-float grids write nothing where there is no value, others an empty chunk
+/// The values of a node, which has no active ones: all are background.
+/// @param half  VDB's half-float grids write nothing if there is no value, others an empty chunk
 template <typename T>
 void write_values(std::ostream& out, const T* values, std::size_t n, bool half) {
     write_raw(out, std::int8_t{openvdb::io::NO_MASK_OR_INACTIVE_VALS});
@@ -36,7 +36,7 @@ void write_values(std::ostream& out, const T* values, std::size_t n, bool half) 
     openvdb::io::bloscToStream(out, reinterpret_cast<const char*>(values), sizeof(T), n);
 }
 
-/// End of the run of leaves from `begin` on that lie in the same node of 2^bits voxels per axis.
+/// The end of the run of leaves from `begin` on that share a node of 2^bits voxels per axis.
 inline std::size_t node_end(std::span<const LeafRef> leaves, std::size_t begin, int bits) {
     const Vec3i node = node_origin(leaves[begin].origin, bits);
     std::size_t end = begin;
@@ -44,7 +44,7 @@ inline std::size_t node_end(std::span<const LeafRef> leaves, std::size_t begin, 
     return end;
 }
 
-/// Masks of an internal node whose children hold `leaves`: which are there; none is an active tile.
+/// The masks of an internal node whose children contain `leaves`; there are no active tiles.
 template <typename T, openvdb::Index Log2Dim>
 void write_node(
     std::ostream& out, std::span<const LeafRef> leaves, int node_bits, int child_bits, bool half) {
@@ -58,7 +58,7 @@ void write_node(
     write_values(out, &none, 0, half);
 }
 
-/// @param leaves  in tree order, none of them empty
+/// @param leaves  in tree order; none is empty
 template <typename T>
 void write_topology(std::ostream& out, std::span<const LeafRef> leaves, bool half) {
     std::uint32_t roots = 0;
@@ -79,8 +79,8 @@ void write_topology(std::ostream& out, std::span<const LeafRef> leaves, bool hal
     }
 }
 
-/// The leaves [begin, end) of a table, by the block that holds them: group g is
-/// order[first[g]] .. order[first[g + 1] - 1].
+/// The leaves [begin, end) of a table, grouped by their block: group g is order[first[g]] ..
+/// order[first[g + 1] - 1].
 struct LeavesByBlock {
     std::vector<std::uint32_t> order;
     std::vector<std::uint32_t> first;
@@ -97,7 +97,7 @@ struct LeavesByBlock {
         first.push_back(static_cast<std::uint32_t>(order.size()));
     }
 
-    /// Calls body(group, leaf index, block, leaf) on all threads; a group on one.
+    /// Calls body(group, leaf index, block, leaf) on all threads; each group runs on one.
     using Body = FunctionRef<void(std::size_t, std::size_t, const VoxelBlock&, const VoxelLeaf&)>;
     void run(const VoxelSource& source, std::span<const LeafRef> leaves, Body body) const {
         parallel_chunks(first.size() - 1, 1, [&](std::size_t g, std::size_t) {
@@ -110,14 +110,14 @@ struct LeavesByBlock {
     }
 };
 
-// What a kind of grid does with a leaf; borrowed, so that all below is compiled once for each type
-// of value, not for each kind.
+// The two operations of a kind of grid on a leaf. They are passed by reference, so that the code
+// below is compiled once per type of value, not per kind of grid.
 using LeafSelect = FunctionRef<LeafMask(const VoxelBlock&, const VoxelLeaf&)>;
-/// Fills a buffer of 512 with the values of the active voxels; returns how many those are.
+/// Writes the values of the active voxels to a buffer of 512; returns their number.
 template <typename Value>
 using LeafGather = FunctionRef<std::size_t(const VoxelBlock&, const VoxelLeaf&, Value*)>;
 
-/// The leaves with at least one voxel that is active in the grid, with the masks of those.
+/// The leaves with at least one voxel that is active in the grid, with the masks of these voxels.
 inline std::vector<LeafRef>
 select_leaves(const VoxelSource& source, std::span<const LeafRef> all, LeafSelect select) {
     std::vector<LeafRef> leaves(all.begin(), all.end());
@@ -130,11 +130,11 @@ select_leaves(const VoxelSource& source, std::span<const LeafRef> all, LeafSelec
     return leaves;
 }
 
-/// Leaves that are encoded before they are written: whole nodes of 128^3 voxels, so that a block of
-/// the source, which lies in one, is asked for once.
+/// The number of leaves that are encoded before they are written: whole nodes of 128^3 voxels, so
+/// that a block of the source, which is inside of one node, is requested once.
 inline constexpr std::size_t kBatchLeaves = 4096;
 
-/// The leaves' masks and values, in their order.
+/// Encodes the masks and values of the leaves, in order.
 template <typename Value>
 void write_buffers(std::ostream& out,
                    const VoxelSource& source,

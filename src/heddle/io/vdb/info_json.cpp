@@ -16,7 +16,7 @@ constexpr std::array<const char*, 2> kMaterialKinds{"fiber", "surface"};
 constexpr std::array<const char*, 3> kAlphaModes{"opaque", "mask", "blend"};
 constexpr std::array<const char*, 3> kYarnModels{"solid", "procedural", "slice"};
 
-// Each struct has one list of its fields, walked by the writer and by the reader.
+// Each struct has one list of its fields, used by the writer and by the reader.
 struct Writer {
     json out = json::object();
 
@@ -42,7 +42,7 @@ struct Reader {
     const json& in;
 
     void operator()(const char* key, float& value) const { value = number(in.at(key)); }
-    /// Not every file has it.
+    /// For a key that some files lack.
     void where_known(const char* key, float& value) const {
         if (!in.contains(key)) return;
         const float v = number(in.at(key));
@@ -151,7 +151,7 @@ void visit_counts(Visitor& field, InfoT& level) {
     field("lobe_count", level.lobe_count);
 }
 
-std::string dump(const json& value) { // names need not be UTF-8: a bad byte becomes U+FFFD
+std::string dump(const json& value) { // names may not be UTF-8: a bad byte becomes U+FFFD
     return value.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
@@ -164,7 +164,7 @@ void add_counts(Writer& to, const LevelCounts& level, const Lattice& lattice) {
     to("bounds_hi", Vec3d{(hi.x + 1.0) * h.x, (hi.y + 1.0) * h.y, (hi.z + 1.0) * h.z});
 }
 
-/// The level as `about` tells of it, which is what all levels share and the finest lattice.
+/// A level's info: `about`, shared by all levels, with the finest lattice, and its counts.
 VoxelGridInfo make_level(const VoxelGridInfo& about, int level, const json& counts) {
     VoxelGridInfo info = about;
     info.level = level;
@@ -212,7 +212,7 @@ std::string materials_to_json(const std::vector<Material>& materials) {
 InfoJson to_json(const VoxelGridInfo& finest, std::span<const LevelCounts> levels) {
     Writer about;
     visit_info(about, finest);
-    add_counts(about, levels[0], finest.lattice); // of level 0, as files of one level have them
+    add_counts(about, levels[0], finest.lattice); // of level 0, as in files of one level
     about("lod", finest.lod);
     about("approximate", finest.approximate);
     json list = json::array();
@@ -248,7 +248,7 @@ std::vector<VoxelGridInfo> infos_from_json(const InfoJson& text, const std::stri
             visit_yarn(read, info.yarns.emplace_back());
         }
         check_info(info);
-        // files from before there were levels have none of the list
+        // older files without levels lack the list
         const json levels = about.contains("levels") ? about.at("levels") : json::array({about});
         if (!levels.is_array() || levels.empty() || levels.size() > kMaxLevels) {
             throw std::runtime_error(
@@ -259,7 +259,7 @@ std::vector<VoxelGridInfo> infos_from_json(const InfoJson& text, const std::stri
             infos.push_back(make_level(info, static_cast<int>(i), levels[i]));
         }
         return infos;
-    } catch (const std::exception& e) { // nlohmann's and ours alike
+    } catch (const std::exception& e) { // those of nlohmann and our own
         throw Error(ErrorCode::BadFile, str("its heddle metadata cannot be used: ", e.what()),
                     "write the file again", {.path = path});
     }

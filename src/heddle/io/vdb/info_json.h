@@ -15,25 +15,25 @@ struct InfoJson {
     std::string yarns;     ///< `heddle_yarns`: an array
 };
 
-/// What is known of one level beside what all share.
+/// The counts of one level; all else is shared by the levels.
 struct LevelCounts {
     std::int64_t voxel_count = 0;
     std::int64_t lobe_count = 0;
-    Vec3i lo; ///< first and
-    Vec3i hi; ///< last active voxel, inclusive; meaningless without voxels
+    Vec3i lo; ///< first active voxel
+    Vec3i hi; ///< last active voxel, inclusive; both meaningless without voxels
 };
 
-/// @param finest  of level 0; its own counts are not used
+/// @param finest  level 0; its own counts are ignored
 /// @param levels  finest first, at least one
 [[nodiscard]] InfoJson to_json(const VoxelGridInfo& finest, std::span<const LevelCounts> levels);
 
 /// The metadata string `heddle_materials`.
 [[nodiscard]] std::string materials_to_json(const std::vector<Material>& materials);
 
-/// The reverse of to_json: one info a level, finest first. `fields` is not in the strings and stays
-/// as default.
+/// The reverse of to_json: one info per level, finest first. `fields` is not in the strings and
+/// keeps its default.
 /// @param path    for messages
-/// @throws Error  BadFile when a key is missing, of another type or out of range
+/// @throws Error  BadFile: a key is missing, of another type or out of range
 [[nodiscard]] std::vector<VoxelGridInfo> infos_from_json(const InfoJson& json,
                                                          const std::string& path);
 

@@ -7,20 +7,20 @@
 
 namespace heddle {
 
-/// What decides which grids a level has.
+/// The properties of a level that decide which grids it has.
 struct LevelGrids {
     int level = 0;
     VoxelGridFields fields;
-    int lobes = 0;      ///< most lobes of any voxel
+    int lobes = 0;      ///< largest number of any voxel
     bool merge = false; ///< has merge orders
 };
 
-/// The masks of a level; all levels' fields say the same.
+/// Whether a level has masks: only level 0 does, although all levels have the same fields.
 [[nodiscard]] inline bool has_masks(const VoxelGridFields& fields, int level) {
     return fields.masks && level == 0;
 }
 
-/// Calls visit(name, values) for the grids of what a voxel has once, in the file's order.
+/// Calls visit(name, values) for the grids with one value per voxel, in the file's order.
 template <typename Visit>
 void for_each_voxel_grid(const LevelGrids& of, const Visit& visit) {
     const auto name = [&](GridKind kind, std::size_t axis = 0) {
@@ -54,7 +54,7 @@ void for_each_lobe_grid(const LevelGrids& of, int k, const Visit& visit) {
 }
 
 /// Calls visit(name, values) for every grid of a level that a reader needs: all but the density and
-/// the directions, which follow from the rest.
+/// the directions, which are derived from the others.
 template <typename Visit>
 void for_each_grid(const LevelGrids& of, const Visit& visit) {
     for_each_voxel_grid(of, visit);

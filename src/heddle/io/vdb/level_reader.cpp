@@ -20,7 +20,7 @@ auto key(Vec3i v) {
     return std::tuple(v.x, v.y, v.z);
 }
 
-/// Reads the values of one leaf in step with voxels that another grid has.
+/// Reads the values of one leaf, in step with the voxels of another grid.
 class LeafCursor {
 public:
     LeafCursor(const GridLeaves& grid, Vec3i origin) {
@@ -34,7 +34,7 @@ public:
     [[nodiscard]] bool active(std::size_t x, int bit) const {
         return leaf_ != nullptr && ((leaf_->active[x] >> bit) & 1) != 0;
     }
-    /// At most once for each active voxel.
+    /// Returns the next value; call it at most once for each active voxel.
     template <typename T>
     T take() {
         T value{};
@@ -48,7 +48,7 @@ private:
     const std::byte* next_ = nullptr;
 };
 
-/// Gives the arrays that the fields ask for their size.
+/// Resizes the arrays that the fields require.
 void size_arrays(VoxelBlock& block, const LevelGrids& of) {
     const std::size_t voxels = block.coverage.size(), lobes = block.lobes.size();
     const bool masks = has_masks(of.fields, of.level);
@@ -111,8 +111,8 @@ private:
         return grid;
     }
 
-    /// Makes the blocks, with voxels and lobes but nothing else.
-    /// @return  most lobes of a voxel
+    /// Makes the blocks with their voxels and lobes only.
+    /// @return  the largest number of lobes of a voxel
     int read_lobes() {
         const VoxelGridInfo& info = grid_->info();
         const GridLeaves coverage =
@@ -132,7 +132,7 @@ private:
         return static_cast<int>(lobes.size());
     }
 
-    /// One block for each occupied cell of 32^3 voxels.
+    /// Makes one block for each cell of 32^3 voxels that contains any.
     void make_blocks(const GridLeaves& coverage, const std::vector<GridLeaves>& lobes) {
         const auto cell = [&](std::size_t i) {
             const Vec3i at = coverage.leaves[i].origin;
@@ -206,7 +206,7 @@ private:
         }
     }
 
-    /// Reads a grid into the voxels that must have it.
+    /// Reads a grid into the voxels that must be active in it.
     template <typename Values>
     void fill(const std::string& name, const Values& values) {
         const GridLeaves grid = read(name, values);

@@ -8,11 +8,11 @@
 
 namespace heddle {
 
-/// Reads the grids of one level. Each is decoded whole: `coverage` and `lobe_k` together, the rest
-/// one after the other.
-/// @param info    of the level, fields included
-/// @throws Error  BadFile: a grid is missing, damaged or out of step with `coverage`; counts are
-///                not as in `info`; a lobe or a merge order that cannot be
+/// Reads the grids of one level. Each is decoded as a whole: `coverage` and `lobe_k` together, then
+/// the others one at a time.
+/// @param info    of the level, including the fields
+/// @throws Error  BadFile: a grid is missing, damaged or inconsistent with `coverage`; counts
+///                differ from `info`; an invalid lobe or merge order
 [[nodiscard]] std::unique_ptr<VoxelGrid>
 read_level(const std::string& path, const VdbContents& file, const VoxelGridInfo& info);
 

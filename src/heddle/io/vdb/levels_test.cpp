@@ -37,7 +37,7 @@ protected:
         const std::string path = folder_.write("bad.vdb", bytes);
         expect_error(ErrorCode::BadFile, text, [&] { (void)read_levels(path); });
     }
-    /// Writes three levels that `change` has broken, and expects reading to say `text`.
+    /// Writes three levels that `change` has broken, and expects reading to report `text`.
     template <typename Change>
     void expect_broken(const Change& change, const std::string& text) {
         const VoxelLevels levels = make_levels(3);

@@ -15,7 +15,7 @@
 namespace heddle {
 namespace {
 
-// What another program sees: OpenVDB and nothing of Heddle's reader.
+// The view of another program: OpenVDB, without Heddle's reader.
 
 struct PlainGrids {
     openvdb::FloatGrid::Ptr density;

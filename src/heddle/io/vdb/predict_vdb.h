@@ -8,29 +8,29 @@
 
 namespace heddle {
 
-/// What writing a .vdb costs.
+/// The cost of writing a .vdb.
 struct VdbBytes {
-    std::int64_t memory = 0; ///< peak over the source that is written
-    std::int64_t file = 0;   ///< at most, as long as values do not grow in compression
+    std::int64_t memory = 0; ///< peak, in addition to the source
+    std::int64_t file = 0;   ///< upper bound, provided that compression does not enlarge values
 };
 
-/// What write_vdb takes whatever it writes: one batch of encoded leaves and the stream.
+/// The fixed memory of write_vdb: one batch of encoded leaves and the stream.
 inline constexpr std::int64_t kVdbWriterBytes = std::int64_t{20} << 20;
 
-/// A row of the table of leaves, twice: while it is gathered from threads, or while a grid lacks
-/// some voxels. There is no tree.
+/// Memory per leaf: a row of the table of leaves, twice: while threads gather it, or for a grid
+/// that lacks some voxels. There is no tree.
 inline constexpr std::int64_t kVdbWriterBytesPerLeaf = 2 * 88;
 
-/// What a grid takes whatever it holds: its description, and the masks of the root's children, of
-/// which an object about the origin has eight.
+/// Fixed bytes of a grid in the file: its description, and the masks of the root's children, of
+/// which an object around the origin has eight.
 inline constexpr std::int64_t kVdbEmptyGridBytes = 1024 + 8 * 8192;
 
 namespace detail {
 
-/// Bytes of one level's grids.
+/// The bytes of the grids of one level.
 [[nodiscard]] inline std::int64_t
 predict_level_bytes(const LevelSize& of, const VoxelGridFields& fields, bool masks) {
-    const std::int64_t per_leaf_masks = 64 + 64 + 1 + 16; // topology, buffer, flag, Blosc's head
+    const std::int64_t per_leaf_masks = 64 + 64 + 1 + 16; // topology, buffer, flag, Blosc's header
     const std::int64_t sums = masks ? (fields.map_sums() ? 19 : 7) : 0;
     const std::int64_t lobe_grids = 1 + fields.albedo + fields.surface + fields.tangents + sums;
     const std::int64_t lobe_bytes =
@@ -40,7 +40,7 @@ predict_level_bytes(const LevelSize& of, const VoxelGridFields& fields, bool mas
     const std::int64_t voxel_grids = 3 + columns + footprints + fields.correlation;
     const std::int64_t voxel_bytes =
         4 + 6 + 8 + 8 * columns + 8 * footprints + 4 * fields.correlation;
-    const std::int64_t merges = (of.lobes - of.voxels) / 2; // at most so many have three lobes
+    const std::int64_t merges = (of.lobes - of.voxels) / 2; // at most this many have three lobes
     const double lobes_per_voxel =
         of.voxels > 0 ? static_cast<double>(of.lobes) / static_cast<double>(of.voxels) : 1.0;
     const double grids = static_cast<double>(voxel_grids + (merges > 0)) +
@@ -53,9 +53,9 @@ predict_level_bytes(const LevelSize& of, const VoxelGridFields& fields, bool mas
 
 } // namespace detail
 
-/// Predicts what write_vdb takes for an object's levels.
+/// Predicts the memory and bytes of write_vdb for an object's levels.
 /// @param levels  finest first
-/// @param fields  as the grids have them; masks are counted for level 0 alone
+/// @param fields  as the grids have them; masks are only counted for level 0
 [[nodiscard]] inline VdbBytes predict_vdb_bytes(std::span<const LevelSize> levels,
                                                 const VoxelGridFields& fields) {
     VdbBytes out{kVdbWriterBytes, std::int64_t{16} << 10};

@@ -12,10 +12,10 @@
 namespace heddle {
 namespace {
 
-/// A file before its voxels are read.
+/// An opened file whose voxels are not read yet.
 struct OpenFile {
     VdbContents contents;
-    std::vector<VoxelGridInfo> levels; ///< finest first, fields included
+    std::vector<VoxelGridInfo> levels; ///< finest first, with their fields
 };
 
 [[noreturn]] void fail(const std::string& path, const std::string& what) {
@@ -44,7 +44,7 @@ void check_format(const std::string& path, const VdbContents& file) {
     }
 }
 
-/// Every level must have its coverage, and no grid may be there twice or be of no level.
+/// Checks that every level has its coverage, and that no grid is duplicate or of an unknown level.
 void check_levels(const std::string& path, const VdbContents& file, std::size_t levels) {
     const std::string& count = file.metadata.at(kLevelsKey);
     if (count != std::to_string(levels)) {
@@ -67,7 +67,7 @@ void check_levels(const std::string& path, const VdbContents& file, std::size_t 
     }
 }
 
-/// The fields that the file's grids show, at whatever level: the reader then misses them elsewhere.
+/// The fields that exist as a grid at any level: the reader then reports those missing in others.
 VoxelGridFields find_fields(const std::string& path, const VdbContents& file) {
     std::set<std::string> stems;
     for (const GridEntry& e : file.grids) stems.insert(split_grid_name(e.name).stem);

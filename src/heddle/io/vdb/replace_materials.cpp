@@ -14,9 +14,9 @@ namespace heddle {
 namespace {
 
 constexpr std::int64_t kCopyBytes = std::int64_t{4} << 20;
-constexpr std::int64_t kPlaceBytes = 3 * 8; ///< offsets of a grid, which stand before it
+constexpr std::int64_t kPlaceBytes = 3 * 8; ///< the offsets of a grid, which precede it
 
-/// Takes a file's bytes front to back into another, but for what is skipped.
+/// Copies a file's bytes front to back into another, except for skipped ones.
 class Copy {
 public:
     Copy(const std::string& path, OutputFile& out, Progress& progress)

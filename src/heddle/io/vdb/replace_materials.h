@@ -8,12 +8,12 @@
 
 namespace heddle {
 
-/// Writes a .vdb of Heddle's again with other materials. No grid is decoded: all bytes but the
-/// materials' metadata are copied, and the grids' places in the file moved by what that grew, so
-/// content_hash stays. Memory: a few MiB.
-/// @param path       a file that read_infos takes
-/// @param materials  as many as it has, by material id; texture indices are not kept
-/// @param output     replaced when the new file is whole (see OutputFile); may be `path`
+/// Rewrites a .vdb of Heddle with other materials. No grid is decoded: all bytes except the
+/// materials' metadata are copied, and the offsets of the grids in the file are adjusted, so
+/// content_hash stays the same. Memory: a few MiB.
+/// @param path       a file that read_infos accepts
+/// @param materials  as many as the file has, by material id; texture indices are not stored
+/// @param output     replaced when the new file is complete (see OutputFile); may be `path`
 /// @throws Error     as read_infos; InvalidArgument: another number of materials; CannotWrite;
 ///                   Cancelled. The old file then stays.
 void replace_materials(const std::string& path,

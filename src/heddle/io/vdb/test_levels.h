@@ -8,13 +8,13 @@
 
 #include <memory>
 
-// Grids with everything on, and how to compare them.
+// Grids with all fields, and their comparison.
 
 namespace heddle::testing {
 
-/// 1 to 3 lobes, two kinds of material, all fields, negative indices and several nodes of each
-/// size.
-/// @param shifts  of clusters of 300 voxels along all axes
+/// A grid with 1 to 3 lobes, two kinds of material, all fields, negative indices and several nodes
+/// of each size.
+/// @param shifts  of clusters of 300 voxels, along all axes
 inline VoxelGrid make_mixed(int block_voxels = 32,
                             const std::vector<int>& shifts = {-9000, -40, 0, 130, 5000}) {
     VoxelMap voxels;
@@ -53,8 +53,8 @@ inline VoxelGrid make_mixed(int block_voxels = 32,
     return grid;
 }
 
-/// Gives a grid whose `about` is complete the arrays that levels bring: bytes that depend on the
-/// place of voxel or lobe, merge orders that can be.
+/// Adds the arrays of levels to a grid whose `about` is complete: bytes that depend on the index of
+/// the voxel or lobe, and valid merge orders.
 inline void add_level_arrays(VoxelGrid& grid) {
     const VoxelGridFields& has = grid.info().fields;
     const bool masks = has.masks && grid.info().level == 0;
@@ -86,7 +86,7 @@ inline void add_level_arrays(VoxelGrid& grid) {
     }
 }
 
-/// Levels with all fields on. What the coarser ones hold has nothing to do with level 0.
+/// Levels with all fields. The coarser ones are not built from level 0.
 inline VoxelLevels
 make_levels(int count, std::int32_t footprints = 8, const std::vector<int>& shifts = {0}) {
     VoxelLevels levels;
@@ -99,7 +99,7 @@ make_levels(int count, std::int32_t footprints = 8, const std::vector<int>& shif
         about.fields.masks = about.fields.correlation = true;
         about.fields.footprints = footprints;
         add_level_arrays(*grid);
-        grid->blocks[0].coverage[0].x = static_cast<std::uint16_t>(level); // not all the same
+        grid->blocks[0].coverage[0].x = static_cast<std::uint16_t>(level); // the levels differ
         levels.push_back(std::move(grid));
     }
     return levels;
@@ -128,7 +128,7 @@ std::vector<T> slice(const std::vector<T>& all, std::size_t begin, std::size_t n
     return std::vector<T>(from, from + static_cast<std::ptrdiff_t>(n));
 }
 
-/// Expects the same voxels in the same leaves, whatever the blocks.
+/// Expects the same voxels in the same leaves, regardless of blocks.
 inline void expect_same_voxels(const VoxelGrid& a, const VoxelGrid& b) {
     const Leaves left = leaves_of(a), right = leaves_of(b);
     ASSERT_EQ(left.size(), right.size());

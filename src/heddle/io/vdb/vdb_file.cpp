@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint64_t kMagic = 0x56444220;
 constexpr std::uint32_t kOldestVersion = 222; // OpenVDB 2: the layout below
 
-/// A length and that many bytes.
+/// Reads a length and a text of that many bytes.
 std::string read_string(ByteReader& in, const char* what) {
     return in.text(in.u32(what), what);
 }
@@ -65,7 +65,7 @@ void read_metadata(ByteReader& in, VdbContents& out) {
 GridEntry read_entry(ByteReader& in) {
     GridEntry grid;
     grid.name = read_string(in, "a grid's name");
-    grid.name = grid.name.substr(0, grid.name.find('\x1e')); // VDB numbers names that repeat
+    grid.name = grid.name.substr(0, grid.name.find('\x1e')); // VDB numbers repeated names
     grid.type = read_string(in, "a grid's type");
     const std::string parent = read_string(in, "a grid's instance parent");
     grid.begin = read_offset(in);

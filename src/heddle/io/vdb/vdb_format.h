@@ -5,8 +5,8 @@
 
 namespace heddle {
 
-inline constexpr std::int32_t kFormatVersion = 2; ///< of docs/format.md
-inline constexpr std::size_t kMaxLevels = 28;     ///< 8 x 2^27 subvoxels are still an int32
+inline constexpr std::int32_t kFormatVersion = 2; ///< the version of docs/format.md
+inline constexpr std::size_t kMaxLevels = 28;     ///< 8 x 2^27 subvoxels still fit an int32
 
 // File-level metadata keys
 inline constexpr const char* kFormatKey = "heddle_format";       ///< int32

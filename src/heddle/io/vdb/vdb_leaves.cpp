@@ -15,7 +15,7 @@ namespace {
     throw Error(ErrorCode::Internal, str("write vdb: ", what));
 }
 
-/// Throws unless every array is as long as the writer will take it to be.
+/// Throws unless every array has the length that the writer assumes.
 void check_arrays(const VoxelBlock& block, const VoxelGridInfo& info) {
     const std::size_t voxels = block.coverage.size(), lobes = block.lobes.size();
     const VoxelGridFields& has = info.fields;

@@ -19,8 +19,8 @@ namespace {
 
 constexpr std::size_t kBufferBytes = std::size_t{4} << 20;
 
-/// Scale and half a voxel's move: an index is the voxel's centre. Read from its own bytes, as a file's
-/// is: the constructors take voxels below 1e-5 scene units for flat, and patterns in metres have such.
+/// Scale by the voxel size, then move by half a voxel: an index is the voxel's centre. OpenVDB's
+/// map constructors reject voxel sizes below 1e-5, which patterns in metres have: so deserialize.
 openvdb::math::Transform::Ptr make_transform(const Lattice& lattice) {
     using namespace openvdb::math;
     const openvdb::Vec3d h(lattice.voxel_size.x, lattice.voxel_size.y, lattice.voxel_size.z);
@@ -44,19 +44,24 @@ openvdb::Vec3i to_vdb(Vec3i v) {
 
 using HalfDirection = std::array<openvdb::math::half, 3>;
 
-/// The standard grid that stores values of a type; it never holds a voxel.
-template <typename Value>
-struct GridOf;
+/// The standard tree that stores values of a type, by its name in a file and the size of its values.
+/// Grids of OpenVDB's own are never made: their templates alone took a minute to compile.
+struct TreeType {
+    const char* name;
+    std::size_t value_bytes;
+};
+template <typename Stored>
+constexpr TreeType kTreeOf{};
 template <>
-struct GridOf<float> : std::type_identity<openvdb::FloatGrid> {};
+constexpr TreeType kTreeOf<float>{"Tree_float_5_4_3", 4};
 template <>
-struct GridOf<HalfDirection> : std::type_identity<openvdb::Vec3SGrid> {};
+constexpr TreeType kTreeOf<HalfDirection>{"Tree_vec3s_5_4_3", 12};
 template <>
-struct GridOf<std::int32_t> : std::type_identity<openvdb::Int32Grid> {};
+constexpr TreeType kTreeOf<std::int32_t>{"Tree_int32_5_4_3", 4};
 template <>
-struct GridOf<std::int64_t> : std::type_identity<openvdb::Int64Grid> {};
+constexpr TreeType kTreeOf<std::int64_t>{"Tree_int64_5_4_3", 8};
 
-/// DirectionValues as half floats: half the bytes, and still finer than the lobe's eight bits.
+/// DirectionValues as half floats: half the bytes, and still finer than the eight bits of a lobe.
 struct HalfDirectionValues : DirectionValues {
     using DirectionValues::DirectionValues;
     using Value = HalfDirection;
@@ -66,7 +71,7 @@ struct HalfDirectionValues : DirectionValues {
     }
 };
 
-/// A level to be written and what its walk found.
+/// A level to write, and its leaves.
 struct Level {
     const VoxelSource& source;
     VdbLeaves found;
@@ -77,7 +82,7 @@ struct Level {
     }
 };
 
-/// Writes grids into one file one after the other; openvdb::io::File takes them all at once.
+/// Writes grids into one file, one at a time; openvdb::io::File needs them all at once.
 class Archive : public openvdb::io::Archive {
 public:
     Archive(std::ostream& out, Progress& progress) : out_(out), progress_(progress) {
@@ -91,7 +96,7 @@ public:
         write_raw(out_, grids);
     }
 
-    /// @param leaves  those with a voxel that is active in the grid, with the masks of such
+    /// @param leaves  those with a voxel that is active in the grid, with the masks of these voxels
     template <typename Values>
     void write(const Level& level,
                const std::string& name,
@@ -111,29 +116,31 @@ public:
     }
 
 private:
+    using GridBase = openvdb::GridBase;
+
     template <typename Stored>
     void write_leaves(const Level& level,
                       const std::string& name,
                       std::span<const LeafRef> leaves,
                       LeafGather<Stored> gather) {
-        using GridT = typename GridOf<Stored>::type;
-        using Value = typename GridT::ValueType;
         constexpr bool kHalf = std::is_same_v<Stored, HalfDirection>;
-        static_assert(sizeof(Value) == sizeof(Stored) * (kHalf ? 2 : 1));
-        const typename GridT::Ptr grid = GridT::create();
-        describe(*grid, level, leaves, sizeof(Value));
-        grid->setName(name);
-        if (std::is_same_v<Stored, float>) grid->setGridClass(openvdb::GRID_FOG_VOLUME);
-        grid->setSaveFloatAsHalf(kHalf);
-        openvdb::io::GridDescriptor place(name, grid->type(), kHalf);
+        constexpr TreeType kTree = kTreeOf<Stored>;
+        static_assert(kTree.value_bytes == sizeof(Stored) * (kHalf ? 2 : 1));
+        openvdb::MetaMap about = describe(level, leaves, kTree.value_bytes);
+        about.insertMeta(GridBase::META_GRID_NAME, openvdb::StringMetadata(name));
+        if (std::is_same_v<Stored, float>) {
+            about.insertMeta(GridBase::META_GRID_CLASS, openvdb::StringMetadata(fog_volume()));
+        }
+        about.insertMeta(GridBase::META_SAVE_HALF_FLOAT, openvdb::BoolMetadata(kHalf));
+        openvdb::io::GridDescriptor place(name, kTree.name, kHalf);
         place.writeHeader(out_);
         const auto offsets = out_.tellp();
         place.writeStreamPos(out_);
         place.setGridPos(out_.tellp());
-        setGridCompression(out_, *grid);
-        grid->writeMeta(out_);
-        grid->writeTransform(out_);
-        write_topology<Value>(out_, leaves, kHalf);
+        write_raw(out_, compression());
+        about.writeMeta(out_);
+        make_transform(level.info().lattice)->write(out_);
+        write_topology<std::array<char, kTree.value_bytes>>(out_, leaves, kHalf);
         place.setBlockPos(out_.tellp());
         write_buffers<Stored>(out_, level.source, leaves, gather, progress_);
         place.setEndPos(out_.tellp());
@@ -142,34 +149,36 @@ private:
         place.seekToEnd(out_);
     }
 
-    /// What openvdb::io::File would add, without the second compression that it does to find out.
-    static void describe(openvdb::GridBase& grid,
-                         const Level& level,
-                         std::span<const LeafRef> leaves,
-                         std::size_t value_bytes) {
-        grid.setTransform(make_transform(level.info().lattice));
+    static std::string fog_volume() {
+        return GridBase::gridClassToString(openvdb::GRID_FOG_VOLUME);
+    }
+
+    /// The metadata of openvdb::io::File, without its extra compression to measure sizes.
+    static openvdb::MetaMap
+    describe(const Level& level, std::span<const LeafRef> leaves, std::size_t value_bytes) {
         std::int64_t voxels = 0;
         for (const LeafRef& leaf : leaves) {
             for (std::uint64_t w : leaf.active) voxels += std::popcount(w);
         }
-        using openvdb::GridBase;
+        openvdb::MetaMap about;
         const auto bytes = static_cast<std::int64_t>(leaves.size() * (96 + 512 * value_bytes));
-        grid.insertMeta(GridBase::META_FILE_VOXEL_COUNT, openvdb::Int64Metadata(voxels));
-        grid.insertMeta(GridBase::META_FILE_MEM_BYTES, openvdb::Int64Metadata(bytes));
-        grid.insertMeta(GridBase::META_FILE_COMPRESSION,
-                        openvdb::StringMetadata("blosc + active values"));
-        if (voxels == 0) return;
-        grid.insertMeta(GridBase::META_FILE_BBOX_MIN,
-                        openvdb::Vec3IMetadata(to_vdb(level.found.box.lo)));
-        grid.insertMeta(GridBase::META_FILE_BBOX_MAX,
-                        openvdb::Vec3IMetadata(to_vdb(level.found.box.hi)));
+        about.insertMeta(GridBase::META_FILE_VOXEL_COUNT, openvdb::Int64Metadata(voxels));
+        about.insertMeta(GridBase::META_FILE_MEM_BYTES, openvdb::Int64Metadata(bytes));
+        about.insertMeta(GridBase::META_FILE_COMPRESSION,
+                         openvdb::StringMetadata("blosc + active values"));
+        if (voxels == 0) return about;
+        about.insertMeta(GridBase::META_FILE_BBOX_MIN,
+                         openvdb::Vec3IMetadata(to_vdb(level.found.box.lo)));
+        about.insertMeta(GridBase::META_FILE_BBOX_MAX,
+                         openvdb::Vec3IMetadata(to_vdb(level.found.box.hi)));
+        return about;
     }
 
     std::ostream& out_;
     Progress& progress_;
 };
 
-/// One level's grids.
+/// Writes the grids of one level.
 class LevelWriter {
 public:
     LevelWriter(Archive& archive, const Level& level) : archive_(archive), level_(level) {}
@@ -187,7 +196,7 @@ public:
         }
     }
 
-    /// Grids that write() writes.
+    /// The number of grids that write() writes.
     [[nodiscard]] static int count(const Level& level) {
         int grids = 1 + (level.found.fiber_voxels > 0) + (level.found.surface_voxels > 0);
         for_each_grid(level.grids(), [&](const std::string&, const auto&) { ++grids; });
@@ -195,7 +204,7 @@ public:
     }
 
 private:
-    /// For programs that know nothing of the others.
+    /// Writes the density and directions, for programs that do not know the other grids.
     void write_derived() {
         const VoxelGridInfo& info = level_.info();
         const auto name = [&](GridKind kind) { return grid_name(kind, 0, info.level); };
@@ -218,7 +227,7 @@ private:
         return select(values);
     }
 
-    /// Holds until the next call.
+    /// The result is valid until the next call.
     template <typename Values>
     std::span<const LeafRef> select(const Values& values) {
         selected_ = select_leaves(level_.source, level_.found.leaves,
@@ -255,7 +264,7 @@ openvdb::MetaMap make_metadata(std::span<const Level> levels) {
     return metadata;
 }
 
-/// Throws unless the levels are those of one lattice, finest first.
+/// Throws unless the levels share one lattice and are in order, finest first.
 void check_levels(std::span<const VoxelSource* const> levels) {
     const auto fail = [](const std::string& what) {
         throw Error(ErrorCode::Internal, "write vdb: " + what);
@@ -295,7 +304,7 @@ void write_grids(std::ostream& out, std::span<const Level> levels, Progress& pro
 void write_sources(std::span<const VoxelSource* const> sources,
                    const std::string& path,
                    Progress& progress) {
-    OutputFile file(path); // first: an output that cannot be written is said before the work
+    OutputFile file(path); // first: an output that cannot be written is reported early
     check_levels(sources);
     openvdb::initialize();
     std::vector<Level> levels;
@@ -303,7 +312,7 @@ void write_sources(std::span<const VoxelSource* const> sources,
         levels.push_back({*source, list_vdb_leaves(*source, progress)});
     }
     try {
-        std::vector<char> buffer(kBufferBytes); // outlives the stream
+        std::vector<char> buffer(kBufferBytes); // must outlive the stream
         std::ofstream out;
         out.exceptions(std::ios::failbit | std::ios::badbit);
         out.rdbuf()->pubsetbuf(buffer.data(), static_cast<std::streamsize>(buffer.size()));

@@ -86,7 +86,7 @@ TEST_F(WriteVdb, ContentHashDependsOnVoxelsNotOnBlocksOrThreads) {
     }
     write_vdb(changed, file("c.vdb"), progress_);
     const auto a = summarize_vdb(file("a.vdb")), c = summarize_vdb(file("c.vdb"));
-    // maps depend on the lobe's place in its block, the other grids must agree
+    // maps depend on the index of a lobe in its block; the other grids must agree
     const auto b = summarize_vdb(file("b.vdb"));
     const auto of = [](const std::vector<GridSummary>& all, const std::string& name) {
         for (const GridSummary& g : all) {

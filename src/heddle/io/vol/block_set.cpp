@@ -26,7 +26,7 @@ std::string join(const std::string& folder, const std::string& name) {
     return (fs::path(folder) / name).string();
 }
 
-/// Names in a folder, in alphabetical order; none if it cannot be listed.
+/// The names in a folder in alphabetical order; none if it cannot be listed.
 std::vector<std::string> list_files(const std::string& folder) {
     std::vector<std::string> names;
     std::error_code failed;
@@ -38,7 +38,7 @@ std::vector<std::string> list_files(const std::string& folder) {
     return names;
 }
 
-/// The sets that stand beside a dictionary and hold a listed block, by name.
+/// The sets beside a dictionary that have a listed block, by name.
 std::vector<BlockSet> find_sets(const std::string& path, const VolDictionary& dictionary) {
     std::set<std::tuple<int, int, int>> listed;
     for (const Vec3i b : dictionary.blocks) listed.insert({b.x, b.y, b.z});
@@ -100,7 +100,7 @@ choose_orientation(const std::string& path, std::vector<BlockSet> sets, const st
         expect_directions(file);
         const std::optional<BlockName> name = parse_block_name(fs::path(asked).filename().string());
         if (!name) {
-            throw Error(ErrorCode::InvalidArgument, "its name says no block",
+            throw Error(ErrorCode::InvalidArgument, "its name does not contain a block",
                         "name one of the blocks' files, 'prefixXXX_YYY_ZZZpostfix.vol'",
                         {.path = asked});
         }
@@ -119,7 +119,7 @@ choose_orientation(const std::string& path, std::vector<BlockSet> sets, const st
     return sets.empty() ? std::nullopt : std::optional(sets.front());
 }
 
-/// Throws if one of the listed blocks has no file: the first in the list's order, and how many.
+/// Throws if one of the listed blocks has no file, naming the first and the number.
 void expect_all_there(const std::string& path,
                       const VolDictionary& dictionary,
                       const BlockSet& set) {

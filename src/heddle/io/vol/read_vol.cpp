@@ -13,13 +13,13 @@ namespace heddle {
 namespace {
 
 constexpr int kLeaf = 8;
-constexpr int kBlock = 32; // as the voxelizer's: aligned, so no two blocks hold the same leaf
+constexpr int kBlock = 32; // as in the voxelizer: aligned, so no two blocks have the same leaf
 
 auto order(Vec3i v) {
     return std::tuple(v.x, v.y, v.z);
 }
 
-/// The samples of one block of voxels; 0 where there are none.
+/// The samples of one block of voxels; 0 where the volume has none.
 struct BlockSamples {
     std::vector<float> density = std::vector<float>(std::size_t{kBlock} * kBlock * kBlock);
     std::vector<Vec3f> tangent = std::vector<Vec3f>(density.size());
@@ -50,7 +50,7 @@ public:
         list_corners();
     }
 
-    std::vector<Vec3i> corners; ///< of the blocks, in voxels: ascending
+    std::vector<Vec3i> corners; ///< voxel indices of the blocks' corners, ascending
 
     [[nodiscard]] std::size_t block_count() const override { return corners.size(); }
     [[nodiscard]] const VoxelBlock& block(std::size_t i, VoxelBlock& scratch) const override {
@@ -98,8 +98,8 @@ const VolBlock* VolSource::find_block(Vec3i at) const {
     return found != layout_.blocks.end() && found->at == at ? &*found : nullptr;
 }
 
-/// @param lo, hi  samples of the whole volume, inside the block
-/// @param base    sample at the first place of `out`
+/// @param lo, hi  range of samples in the whole volume, inside the block
+/// @param base    the sample that is the first one of `out`
 void VolSource::add_samples(
     const VolBlock& block, Vec3i lo, Vec3i hi, Vec3i base, BlockSamples& out) const {
     Vec3i start;
@@ -115,7 +115,7 @@ void VolSource::add_samples(
         for (std::int32_t y = lo.y; y < hi.y; ++y) {
             for (std::int32_t x = lo.x; x < hi.x; ++x, ++i) {
                 const std::size_t to = BlockSamples::index(x - base.x, y - base.y, z - base.z);
-                if (density[i] <= out.density[to]) continue; // shared, and no denser
+                if (density[i] <= out.density[to]) continue; // shared, and not denser
                 out.density[to] = density[i];
                 out.tangent[to] = tangent[i];
             }
@@ -131,7 +131,7 @@ void VolSource::gather(Vec3i corner, BlockSamples& out) const {
         const std::int32_t pitch = layout_.block_samples[a] - 1;
         lo[a] = std::max(0, base[a]);
         hi[a] = std::min(end[a], base[a] + kBlock);
-        first[a] = std::max(0, lo[a] - 1) / pitch; // its last layer may be lo
+        first[a] = std::max(0, lo[a] - 1) / pitch; // the previous block's last layer may be lo
         last[a] = std::min(layout_.cells[a] - 1, (hi[a] - 1) / pitch);
     }
     for (Vec3i at = first; at.x <= last.x; ++at.x) {
@@ -224,7 +224,7 @@ std::string note_move(const VolLayout& layout, Vec3i origin) {
                ") scene units, at most half a voxel: samples lie at voxels' centres");
 }
 
-/// Reads all samples: counts, and drops the blocks that are empty.
+/// Reads all samples to count the voxels, and drops the blocks that are empty.
 BlockCounts count_voxels(VolSource& source, Progress& progress) {
     std::vector<BlockCounts> counts(source.corners.size());
     progress.begin("read", "blocks", static_cast<std::int64_t>(counts.size()));

@@ -58,7 +58,7 @@ TEST(ReadVol, AVoxelHasItsDirectionsLobeAndOneFiberMaterial) {
     EXPECT_EQ(info.materials[0].albedo, (Vec3f{0.1f, 0.2f, 0.3f}));
 }
 
-/// A volume of 50 x 40 x 70 samples, as one grid and as blocks of 11 x 14 x 24, and what is in it.
+/// A volume of 50 x 40 x 70 samples, as one grid and as blocks of 11 x 14 x 24, and its samples.
 struct Both : TempFolder {
     static constexpr Vec3i kCells{5, 3, 3};
     static constexpr Vec3i kSize{11, 14, 24};
@@ -150,7 +150,7 @@ TEST(ReadVol, WhereBlocksShareALayerTheDenserCounts) {
     put(folder, "v_001_000_000.vol", dense_vol(n, {1.0f, 0.0f, 0.0f}, 50));
     const TestVoxels voxels = voxels_of(*read_path(path, {.density_scale = 1.0}).grid);
     const VolMedium medium({1.0, 1.0, 1.0}, 1.0);
-    ASSERT_EQ(voxels.size(), 12u); // the third cell has no block
+    ASSERT_EQ(voxels.size(), 12u); // the third block is missing
     EXPECT_EQ(voxels.at({0, 0, 0}).coverage, medium.coverage(100.0f / 255.0f, {}));
     EXPECT_EQ(voxels.at({1, 1, 1}).coverage, medium.coverage(100.0f / 255.0f, {}));
     EXPECT_EQ(voxels.at({2, 0, 1}).coverage, medium.coverage(50.0f / 255.0f, {}));

@@ -30,7 +30,7 @@ TEST(Scarf, ThreeBlocksOfItGiveVoxelsOnOneLattice) {
     EXPECT_TRUE(has_note(volume, "density scale 100:"));
     EXPECT_FALSE(has_note(volume, "no direction"));
     const TestVoxels voxels = voxels_of(*volume.grid);
-    // a block alone has the same voxels as within the three, but for shared layers
+    // a block alone has the same voxels as within the three, except in shared layers
     const VolVolume alone = read_path(folder.file("volume_009_001_005-density.vol"));
     std::size_t same = 0;
     const TestVoxels block = voxels_of(*alone.grid);

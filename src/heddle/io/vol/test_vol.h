@@ -22,7 +22,7 @@ inline std::size_t sample_count(Vec3i n) {
            static_cast<std::size_t>(n.z);
 }
 
-/// Bytes of `n` samples whose values `value(x, y, z)` returns as bytes.
+/// The bytes of `n` samples; `value(x, y, z)` returns those of a sample.
 template <typename F>
 std::string vol_samples(Vec3i n, const F& value) {
     std::string out;
@@ -34,14 +34,14 @@ std::string vol_samples(Vec3i n, const F& value) {
     return out;
 }
 
-/// A u8 density of one value, samples one unit apart from `lo` on.
+/// A u8 density of one value, with samples one unit apart from `lo` on.
 inline std::string dense_vol(Vec3i n, Vec3f lo, int value = 255) {
     const Vec3f hi{lo.x + static_cast<float>(n.x - 1), lo.y + static_cast<float>(n.y - 1),
                    lo.z + static_cast<float>(n.z - 1)};
     return vol_header(3, n, 1, lo, hi) + std::string(sample_count(n), static_cast<char>(value));
 }
 
-/// Quantized directions, all the same.
+/// Quantized directions that are all the same.
 inline std::string direction_vol(Vec3i n, Vec3f lo, int theta, int phi) {
     const Vec3f hi{lo.x + static_cast<float>(n.x - 1), lo.y + static_cast<float>(n.y - 1),
                    lo.z + static_cast<float>(n.z - 1)};
@@ -49,7 +49,7 @@ inline std::string direction_vol(Vec3i n, Vec3f lo, int theta, int phi) {
     return vol_header(4, n, 3, lo, hi) + vol_samples(n, [&](int, int, int) { return one; });
 }
 
-/// A dictionary of blocks whose samples are one unit apart, of `n` samples each.
+/// A dictionary of blocks of `n` samples each, one unit apart.
 inline std::string dictionary(Vec3f lo, Vec3i cells, Vec3i n, const std::vector<Vec3i>& blocks) {
     std::string out =
         bytes(lo.x, lo.y, lo.z, lo.x + static_cast<float>(cells.x * (n.x - 1)),
@@ -71,7 +71,7 @@ struct TestVoxel {
 };
 using TestVoxels = std::map<std::tuple<int, int, int>, TestVoxel>;
 
-/// All voxels of a source with one lobe a voxel, while what VoxelBlock promises is checked.
+/// All voxels of a source with one lobe per voxel; also checks the guarantees of VoxelBlock.
 inline TestVoxels voxels_of(const VoxelSource& source) {
     TestVoxels out;
     VoxelBlock scratch;

@@ -56,7 +56,7 @@ bool is_digit(char c) {
     return c >= '0' && c <= '9';
 }
 
-/// Reads "XXX_YYY_ZZZ", no sign; `text` is then behind it.
+/// Reads "XXX_YYY_ZZZ" without signs and moves `text` after it.
 bool take_place(const char*& text, const char* end, Vec3i& out) {
     for (int a = 0; a < 3; ++a) {
         if (a > 0 && (text == end || *text++ != '_')) return false;
@@ -111,12 +111,12 @@ std::string BlockName::of(Vec3i other) const {
 
 std::optional<BlockName> parse_block_name(const std::string& name) {
     for (std::size_t at = 0; at < name.size(); ++at) {
-        if (at > 0 && is_digit(name[at - 1])) continue; // not from the middle of a number
+        if (at > 0 && is_digit(name[at - 1])) continue; // not in the middle of a number
         BlockName out{name.substr(0, at), {}, {}};
         const char* rest = name.data() + at;
         if (!take_place(rest, name.data() + name.size(), out.block)) continue;
         out.postfix = rest;
-        // padded otherwise ("0008"), it would not be found again
+        // with other padding ("0008") the file would not be found again
         if (out.of(out.block) == name) return out;
     }
     return std::nullopt;

@@ -9,19 +9,19 @@
 
 namespace heddle {
 
-/// A Mitsuba 0.6 hgridvolume dictionary: a coarse grid, and which of its cells have a block.
+/// A Mitsuba 0.6 hgridvolume dictionary: a coarse grid and the list of its cells that have a block.
 struct VolDictionary {
     Bounds bounds;             ///< scene units, of all cells
     Vec3i cells;               ///< per axis, >= 1
-    std::vector<Vec3i> blocks; ///< cells that have a block, as listed: at least one, none twice
+    std::vector<Vec3i> blocks; ///< cells that have a block, as listed: at least one, no duplicates
 };
 
 /// Reads a dictionary: f32[6] bounds, i32[3] cells, then i32[3] per block to the end of the file.
-/// @throws Error  as InputFile; BadFile: not a dictionary, cut inside an entry, a block outside the
-///                cells or listed twice
+/// @throws Error  as InputFile; BadFile: not a dictionary, truncated inside an entry, a block
+///                outside the cells or listed twice
 [[nodiscard]] VolDictionary read_vol_dictionary(const std::string& path);
 
-/// What a block's file name is made of: prefix + "XXX_YYY_ZZZ" + postfix.
+/// The parts of a block's file name: prefix + "XXX_YYY_ZZZ" + postfix.
 struct BlockName {
     std::string prefix;
     std::string postfix;
@@ -31,7 +31,7 @@ struct BlockName {
     [[nodiscard]] std::string of(Vec3i other) const;
 };
 
-/// Takes a file name apart; nothing if it names no block.
+/// Splits a file name into its parts; nothing if it does not contain a block.
 /// @param name  without folder
 [[nodiscard]] std::optional<BlockName> parse_block_name(const std::string& name);
 

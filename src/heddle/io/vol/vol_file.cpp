@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t kHeaderBytes = 48;
 constexpr std::int32_t kMaxSize = 1 << 30;
-constexpr std::uint64_t kSlabBytes = 1u << 16; // up to here rows are read with what lies between
+constexpr std::uint64_t kSlabBytes = 1u << 16; // a box up to this size is read in one piece
 
 template <typename T>
 T value_at(const unsigned char* bytes) {
@@ -22,7 +22,7 @@ T value_at(const unsigned char* bytes) {
     return v;
 }
 
-/// Sines and cosines of the angles that a byte stands for.
+/// The sines and cosines of the angles that a byte encodes.
 struct AngleTable {
     std::array<float, 256> sine{}, cosine{};
     explicit AngleTable(double whole) {
@@ -62,7 +62,7 @@ std::uint64_t VolHeader::sample_bytes() const {
     switch (encoding) {
     case VolEncoding::Float32: return 4 * n;
     case VolEncoding::Byte: return n;
-    case VolEncoding::Direction: return 2; // whatever the channels say
+    case VolEncoding::Direction: return 2; // whatever the number of channels
     }
     return 0;
 }
@@ -74,9 +74,9 @@ VolFile::VolFile(std::string path) : file_(std::move(path)) {
     const Vec3i n = header_.size;
     const std::string needed =
         str(n.x, " x ", n.y, " x ", n.z, " samples of ", header_.sample_bytes(), " bytes");
-    if (left < 1) { // divisions: the product may pass 64 bits
+    if (left < 1) { // divided: the product may overflow 64 bits
         fail(kHeaderBytes,
-             str(needed, " are said, ", file_.size_bytes() - kHeaderBytes, " bytes are left"),
+             str(needed, " are stated, ", file_.size_bytes() - kHeaderBytes, " bytes are left"),
              "the file is cut short or of another kind; copy or export it again");
     }
     std::uint64_t end = header_.sample_bytes();

@@ -43,7 +43,7 @@ TEST(VolFile, BytesAreFractionsInTheFilesOrder) {
 
 TEST(VolFile, ABoxOfAWideFileIsReadRowByRowAndIsTheSame) {
     const TempFolder folder;
-    const Vec3i n{9000, 3, 2}; // 9000 x 3 floats pass what is read as one slab
+    const Vec3i n{9000, 3, 2}; // 9000 x 3 floats are too many to be read in one piece
     const std::string path = folder.write(
         "wide.vol", vol_header(1, n, 1, kLo, kHi) + vol_samples(n, [](int x, int y, int z) {
                         return bytes(static_cast<float>(x + 9000 * y + 27000 * z) / 60000.0f);

@@ -31,13 +31,13 @@ bool begins_with_vol(const std::string& path) {
     return std::memcmp(magic, "VOL", sizeof magic) == 0;
 }
 
-/// Half a unit in the last place of a float: how far it may be from what was meant.
+/// Half a unit in the last place of a float: the largest rounding error of a bound.
 double rounding_of(double bound) {
     const auto f = static_cast<float>(std::fabs(bound));
     return 0.5 * (double{std::nextafter(f, std::numeric_limits<float>::infinity())} - double{f});
 }
 
-/// The number of fewest digits within `tolerance` of `x`.
+/// The number with the fewest digits within `tolerance` of `x`.
 double shortest_near(double x, double tolerance) {
     for (int digits = 1; digits < 17; ++digits) {
         char text[40];
@@ -90,7 +90,7 @@ void expect_bounds(const VolFile& file, const Bounds& bounds, Vec3d tolerance, c
     }
 }
 
-/// A sixteenth of a pitch: floats that were computed otherwise pass, another place does not.
+/// A sixteenth of a pitch: accepts floats that were computed differently, rejects another position.
 Vec3d bounds_tolerance(Vec3d pitch) {
     return pitch * (1.0 / 16.0);
 }
@@ -176,7 +176,7 @@ VolLayout find_hierarchy(const std::string& path, const std::string& orientation
         out.blocks.push_back({at, sets.density.path_of(at),
                               sets.orientation ? sets.orientation->path_of(at) : std::string()});
     }
-    check_blocks(out); // in the dictionary's order
+    check_blocks(out); // in the order of the dictionary
     if (sets.orientation) {
         out.orientation_encoding = VolFile(out.blocks.front().orientation).header().encoding;
     }

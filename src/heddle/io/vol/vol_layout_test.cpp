@@ -51,11 +51,11 @@ TEST(VolLayout, ADictionarysFilesAreFoundBesideIt) {
 
 TEST(VolLayout, PitchesThatRoundingMadeDifferAreOne) {
     const TempFolder folder;
-    const Vec3i n{1387, 253, 1135}; // the scarf's
+    const Vec3i n{1387, 253, 1135}; // the size of the scarf
     const std::string header = vol_header(3, n, 1, {-14.07444668f, -0.11661835f, -9.89516067f},
                                           {13.64555359f, 4.92338181f, 12.78483963f});
     const std::string path = folder.write("a.vol", header);
-    std::filesystem::resize_file(path, 48 + sample_count(n)); // a hole: takes no space
+    std::filesystem::resize_file(path, 48 + sample_count(n)); // a sparse file: takes no space
     EXPECT_EQ(find_vol_layout(path).pitch, (Vec3d{0.02, 0.02, 0.02}));
     const std::string flat = folder.write(
         "b.vol", vol_header(3, {3, 3, 3}, 1, {}, {1.0f, 1.0f, 0.2f}) + std::string(27, '\1'));

@@ -44,7 +44,7 @@ PackedSggx VolMedium::lobe(Vec3f tangent) {
     if (!has_direction(tangent)) return uniform;
     const Vec3f t = tangent;
     const float rest = along_x.yy;
-    const float more = along_x.xx - rest; // S = rest I + more t t^T: along_x, turned to t
+    const float more = along_x.xx - rest; // S = rest I + more t t^T: along_x, rotated to t
     return pack({rest + more * t.x * t.x, rest + more * t.y * t.y, rest + more * t.z * t.z,
                  more * t.x * t.y, more * t.x * t.z, more * t.y * t.z});
 }

@@ -15,7 +15,7 @@
 namespace heddle {
 namespace {
 
-constexpr std::int32_t kLayers = 8; ///< written at once
+constexpr std::int32_t kLayers = 8; ///< layers that are written at once
 
 Vec3d corner(Vec3i index, Vec3d h) {
     return Vec3d{static_cast<double>(index.x), static_cast<double>(index.y),
@@ -26,14 +26,14 @@ Vec3d corner(Vec3i index, Vec3d h) {
 void write_head(OutputFile& file, const MitsubaBox& box, std::int32_t channels) {
     file.write("VOL\3", 4);
     for (const std::int32_t v : {1, box.size.x, box.size.y, box.size.z, channels}) {
-        file.write_value(v); // 1: floats
+        file.write_value(v); // 1: f32
     }
     for (const Vec3d& p : {box.bounds.lo, box.bounds.hi}) {
         for (int a = 0; a < 3; ++a) file.write_value(static_cast<float>(p[a]));
     }
 }
 
-/// "x, y, z" with all digits.
+/// Formats "x, y, z" with all digits.
 std::string list(Vec3d v) {
     std::ostringstream out;
     out.precision(9);
@@ -50,10 +50,10 @@ std::string grid_element(const char* name, const char* file, const MitsubaBox& b
                list(box.bounds.lo), "\"/>\n", "        </transform>\n      </volume>\n");
 }
 
-/// Three quarters from the front, from above, the ball about the content in view.
+/// A camera in front, to a side and above, with the content's bounding ball in view.
 std::string camera_element(const Bounds& content) {
     constexpr double kAngleDeg = 35.0;
-    constexpr double kTight = 1.15; // a ball leaves more room about a box than it needs
+    constexpr double kTight = 1.15; // moves closer: the ball around a box leaves too much room
     const Vec3d target = (content.lo + content.hi) * 0.5;
     const double radius = 0.5 * length(content.size());
     const double away = radius / std::sin(0.5 * kAngleDeg * std::numbers::pi / 180.0) / kTight;
@@ -99,7 +99,7 @@ std::string scene_text(const FlakeField& field, const MitsubaBox& box) {
         grid_element("S", "S.vol", box), "      </phase>\n    </medium>\n  </shape>\n</scene>\n");
 }
 
-/// The .vol files while layers are appended.
+/// The .vol files to which layers are appended.
 struct GridFiles {
     OutputFile sigma_t, S;
     std::unique_ptr<OutputFile> albedo;
@@ -133,7 +133,7 @@ void make_folder(const std::string& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (!std::filesystem::is_directory(folder)) {
-        throw Error(ErrorCode::CannotWrite, "it is no folder and cannot be made",
+        throw Error(ErrorCode::CannotWrite, "it is not a folder and cannot be created",
                     "write to another place", {.path = folder});
     }
 }
@@ -157,7 +157,7 @@ MitsubaBox plan_mitsuba(const FlakeField& field, double pad) {
         voxels *= box.size[a];
     }
     box.bounds = {corner(box.low, h), corner(box.low + box.size, h)};
-    constexpr double kMost = 1e17; // far beyond any memory, and its bytes fit 64 bits
+    constexpr double kMost = 1e17; // more than any memory, and its bytes fit 64 bits
     box.voxels = static_cast<std::int64_t>(std::min(voxels, kMost));
     box.bytes = box.voxels * (field.albedo_varies() ? 40 : 28);
     return box;

@@ -9,26 +9,26 @@
 
 namespace heddle {
 
-/// The dense box that a FlakeField is written as.
+/// The dense box of samples that stores a FlakeField.
 struct MitsubaBox {
-    Vec3i low;           ///< voxel index of its first sample
+    Vec3i low;           ///< voxel index of the first sample
     Vec3i size;          ///< samples
-    Bounds bounds;       ///< scene units: samples stand at the centres of its cells
-    Bounds content;      ///< of the voxels that are there: what the camera looks at
-    std::int64_t voxels; ///< samples in all
-    std::int64_t bytes;  ///< of all files: Mitsuba holds as many
+    Bounds bounds;       ///< scene units: samples are at the centres of its cells
+    Bounds content;      ///< of the voxels that exist: the camera looks at it
+    std::int64_t voxels; ///< total number of samples
+    std::int64_t bytes;  ///< of all files; Mitsuba needs this much memory
 };
 
-/// The box of all voxels and one more on each side, so that what is interpolated ends inside it.
-/// @param pad  grows it by this factor on each axis with emptiness; >= 1
+/// The box of all voxels and one more on each side, so that interpolated values end inside it.
+/// @param pad  factor by which empty space enlarges it on each axis; >= 1
 /// @throws Error  InvalidArgument: no voxels
 [[nodiscard]] MitsubaBox plan_mitsuba(const FlakeField& field, double pad);
 
-/// Writes DIR/sigma_t.vol (1 channel, per scene unit), DIR/S.vol (xx yy zz xy xz yz), DIR/albedo.vol
-/// where the albedo varies, and DIR/scene.xml, which Mitsuba 3 renders: VOL version 3, floats.
+/// Writes DIR/sigma_t.vol (1 channel, per scene unit), DIR/S.vol (xx yy zz xy xz yz),
+/// DIR/albedo.vol if the albedo varies, and DIR/scene.xml for Mitsuba 3. VOL version 3, floats.
 ///
-/// Memory: twelve layers of the box. The folder is made.
-/// @throws Error  OutOfMemory: the box needs more than is free, for Mitsuba will hold it;
+/// Memory: twelve layers of the box. The folder is created.
+/// @throws Error  OutOfMemory: the box needs more memory than is free, as Mitsuba will hold it;
 ///                CannotWrite; Cancelled
 void write_mitsuba(const FlakeField& field,
                    const MitsubaBox& box,

@@ -20,11 +20,11 @@
 namespace heddle {
 namespace {
 
-constexpr std::int64_t kMostSamples = std::int64_t{1} << 31; ///< of a block
+constexpr std::int64_t kMostSamples = std::int64_t{1} << 31; ///< samples of a block
 constexpr std::int32_t kMostBlocks = 999;                    ///< three digits in a file's name
 constexpr std::uint8_t kNoDirection = 255;
 
-/// What one voxel becomes.
+/// The sample that a voxel becomes.
 struct Sample {
     Vec3i at; ///< voxel index
     float density = 0.0f;
@@ -32,9 +32,9 @@ struct Sample {
     std::uint8_t phi = 0;
 };
 
-/// theta = b0 pi / 255, phi = b1 2 pi / 255; b0 below 255, for that is none.
+/// theta = b0 pi / 255, phi = b1 2 pi / 255; b0 is below 255, which means no direction.
 void set_direction(Sample& sample, Vec3f t) {
-    if (t.z < 0.0f) t = t * -1.0f; // axial: theta is at most pi / 2
+    if (t.z < 0.0f) t = t * -1.0f; // axial: keeps theta at most pi / 2
     const double theta = std::acos(std::min(1.0, static_cast<double>(t.z)));
     double phi = std::atan2(static_cast<double>(t.y), static_cast<double>(t.x));
     if (phi < 0.0) phi += 2.0 * std::numbers::pi;
@@ -42,14 +42,14 @@ void set_direction(Sample& sample, Vec3f t) {
     sample.phi = static_cast<std::uint8_t>(phi * 255.0 / (2.0 * std::numbers::pi) + 0.5);
 }
 
-/// The direction that a reader gets.
+/// The direction that a reader decodes.
 Vec3d stored_direction(const Sample& sample) {
     const double theta = sample.theta * std::numbers::pi / 255.0;
     const double phi = sample.phi * 2.0 * std::numbers::pi / 255.0;
     return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
 }
 
-/// Extinction that density 1 has along the mean axis, of flakes about `t` (docs/import.md).
+/// Extinction of density 1, averaged over the axes, of flakes around `t` (docs/import.md).
 double mean_sine(Vec3d t) {
     double sum = 0.0;
     for (int a = 0; a < 3; ++a) {
@@ -58,7 +58,7 @@ double mean_sine(Vec3d t) {
     return 4.0 / std::numbers::pi * sum;
 }
 
-/// Mean extinction over the axes, per scene unit.
+/// The extinction per scene unit, averaged over the axes.
 double extinction(const Coverage& c, const Lattice& lattice) {
     const double columns = static_cast<double>(lattice.subvoxels) * lattice.subvoxels;
     const double cap = 1.0 - 0.5 / columns;
@@ -93,22 +93,22 @@ void for_each_sample(const VoxelSource& source, Progress& progress, const Visit&
 
 using Cell = std::tuple<std::int32_t, std::int32_t, std::int32_t>;
 
-/// A sample in one block: number of the sample, density, angles.
+/// A sample in one block: its number, density and angles.
 struct Placed {
     std::uint32_t at;
     std::uint8_t density, theta, phi;
 };
 
-/// All samples by block; those of a shared layer are in both.
+/// All samples by block; those of a shared layer are in both blocks.
 struct Blocks {
     Vec3i low; ///< voxel index of sample 0
     Vec3i cells;
-    Vec3i samples; ///< of a block
+    Vec3i samples; ///< per block
     std::map<Cell, std::vector<Placed>> placed;
 
-    /// Samples between the first ones of neighbouring blocks.
+    /// Distance between the first samples of neighbouring blocks, in samples.
     [[nodiscard]] Vec3i pitch() const { return samples - Vec3i{1, 1, 1}; }
-    /// Voxel index, from `low`, of a block's first sample.
+    /// Voxel index, from `low`, of the first sample of a block.
     [[nodiscard]] Vec3i first_of(Vec3i cell) const {
         const Vec3i p = pitch();
         return {cell.x * p.x, cell.y * p.y, cell.z * p.z};
@@ -126,7 +126,7 @@ struct Blocks {
             for (int a = 0; a < 3; ++a) {
                 const std::int32_t step = samples[a] - 1;
                 cell[a] =
-                    at[a] / step - (corner >> a & 1); // the block before shares its last layer
+                    at[a] / step - (corner >> a & 1); // the previous block shares its last layer
                 in[a] = at[a] - cell[a] * step;
                 here = here && cell[a] >= 0 && cell[a] < cells[a] && in[a] < samples[a];
             }
@@ -159,12 +159,12 @@ void write_whole(const std::string& path,
                  const std::vector<std::uint8_t>& bytes) {
     OutputFile file(path);
     write_head(file, encoding, samples, encoding == 4 ? 3 : 1,
-               box); // directions say 3 and store 2 bytes
+               box); // directions have 3 channels in the header and store 2 bytes
     file.write_array(std::span<const std::uint8_t>(bytes));
     file.commit();
 }
 
-/// Scene units at samples `from` and `to`: at voxels' centres.
+/// Bounds of the samples `from` to `to` in scene units; samples are at voxel centres.
 Bounds bounds_of(Vec3i low, Vec3i from, Vec3i to, Vec3d h) {
     Bounds box;
     for (int a = 0; a < 3; ++a) {
@@ -254,12 +254,12 @@ void make_folder(const std::string& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (!std::filesystem::is_directory(folder)) {
-        throw Error(ErrorCode::CannotWrite, "it is no folder and cannot be made",
+        throw Error(ErrorCode::CannotWrite, "it is not a folder and cannot be created",
                     "write to another place", {.path = folder});
     }
 }
 
-/// What a first walk over the voxels finds.
+/// The range of the voxels and their largest extinction.
 struct Extent {
     Vec3i lo, hi; ///< [lo, hi]
     double densest = 0.0;
@@ -277,10 +277,10 @@ struct Extent {
     }
 };
 
-/// The blocks of the voxels and a layer of emptiness about them.
+/// The blocks of the voxels and of a layer of empty samples around them.
 Blocks plan_blocks(const Extent& extent, std::int32_t asked) {
     Blocks blocks;
-    std::int64_t samples = 1; // of a block
+    std::int64_t samples = 1; // per block
     for (int a = 0; a < 3; ++a) {
         blocks.low[a] = extent.lo[a] - 1;
         const std::int32_t steps = extent.hi[a] + 1 - blocks.low[a];
@@ -313,7 +313,7 @@ Mitsuba06Files write_mitsuba06(const VoxelSource& source,
     for_each_sample(source, progress, [&](const Sample& s) { extent.grow(s); });
     if (!(extent.densest > 0.0)) {
         throw Error(ErrorCode::InvalidArgument,
-                    "export: the volume has no voxels that hide anything",
+                    "export: the volume has no voxels with any coverage",
                     "export a volume that has some");
     }
     Blocks blocks = plan_blocks(extent, options.block_samples);

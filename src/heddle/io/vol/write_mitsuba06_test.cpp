@@ -15,7 +15,7 @@
 namespace heddle {
 namespace {
 
-constexpr int kVoxels = 160; ///< along x: over two borders of blocks
+constexpr int kVoxels = 160; ///< along x: across two borders of blocks
 
 Vec3f tangent_of(int i) {
     const double a = 0.13 * i;
@@ -23,7 +23,7 @@ Vec3f tangent_of(int i) {
     return to_float({std::cos(a) * std::sin(b), std::sin(a) * std::sin(b), std::cos(b)});
 }
 
-/// A row of fiber voxels along x, each with a direction and a density of its own.
+/// A row of fiber voxels along x, each with its own direction and density.
 VoxelGrid row() {
     VoxelGrid grid;
     grid.info().lattice = {{0.5, 0.5, 0.5}, 8};
@@ -75,7 +75,7 @@ TEST(WriteMitsuba06, IsReadBackEqualWithinItsBytes) {
     const testing::TestVoxels voxels = testing::voxels_of(*back.grid);
     ASSERT_EQ(voxels.size(), static_cast<std::size_t>(kVoxels));
     for (int i = 0; i < kVoxels; ++i) {
-        const testing::TestVoxel& v = voxels.at({i - 16, 8, -8}); // where it was
+        const testing::TestVoxel& v = voxels.at({i - 16, 8, -8}); // its old index
         const Coverage was{static_cast<std::uint16_t>(6000 + 300 * i),
                            static_cast<std::uint16_t>(6000 + 300 * i),
                            static_cast<std::uint16_t>(6000 + 300 * i), 0};

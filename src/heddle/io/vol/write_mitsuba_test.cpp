@@ -16,7 +16,7 @@
 namespace heddle {
 namespace {
 
-/// Two voxels of one leaf: a fiber along z at (1, 2, 3), a disc facing x at (6, 2, 3).
+/// Two voxels of one leaf: a fiber along z at (1, 2, 3), a disc that faces x at (6, 2, 3).
 VoxelGrid two_voxels(bool colors) {
     VoxelGrid grid;
     grid.info().lattice = {{0.5, 0.5, 0.25}, 8};
@@ -119,7 +119,7 @@ TEST_F(WriteMitsuba, ValuesReadBackAreTheVoxels) {
 TEST_F(WriteMitsuba, DirectionsGrowByTwoVoxelsAndAreNeverZero) {
     write(two_voxels(false), 3.0);
     const ReadVol S = read_back(folder_ + "/S.vol");
-    // the box of 8 grew by 8, those of 3 by 3 on each side
+    // the box of 8 is enlarged by 8, those of 3 by 3 on each side
     const int x = 8 + 1;
     const int y = 3 + 1;
     const int z = 3 + 1;

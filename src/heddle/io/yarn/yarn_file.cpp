@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A yarn's text is some 30 lines: a larger file is something else.
+/// A yarn file has about 30 lines: a larger file is of another kind.
 constexpr std::uint64_t kMostBytes = 1 << 20;
 
 YarnType wool() {
@@ -25,7 +25,7 @@ YarnType wool() {
     y.albedo = {0.72f, 0.62f, 0.48f};
     y.plies = 2;
     y.fibers_per_ply = 90;
-    y.ply_clockwise = true; // S-plied from Z-spun singles, as knitting wool mostly is
+    y.ply_clockwise = true; // S-plied from Z-spun singles, like most knitting wool
     y.ply_pitch = 9.0f;
     y.fiber_pitch = 10.0f;
     y.ply_offset = 0.48f;
@@ -85,11 +85,11 @@ YarnType silk() {
     y.fibers_per_ply = 100;
     y.fiber_clockwise = true;
     y.ply_pitch = 16.0f;
-    y.fiber_pitch = 24.0f; // filaments need little twist to hold
+    y.fiber_pitch = 24.0f; // filaments hold with little twist
     y.ply_offset = 0.5f;
     y.ellipse_long = 0.58f;
     y.ellipse_short = 0.5f;
-    y.density_epsilon = 0.45f; // close to uniform: filaments lie side by side
+    y.density_epsilon = 0.45f; // nearly uniform: filaments are side by side
     y.density_beta = 0.1f;
     y.fiber_radius = 0.04f; // 0.55 of the section
     return y;
@@ -102,7 +102,7 @@ std::optional<YarnType> preset(const std::string& name) {
     return std::nullopt;
 }
 
-/// Names with their nearest kin for an Error on one that is not there.
+/// Throws the Error for a name that does not exist, with the nearest known name.
 [[noreturn]] void throw_unknown(const std::string& name) {
     const std::vector<std::string> names = list_presets();
     throw Error(ErrorCode::NotFound, str("there is no yarn preset or file '", name, "'",
@@ -127,7 +127,7 @@ YarnFile read_yarn(const std::string& preset_or_path, const LoadTexture& load_te
     const std::string suffix = suffix_of(preset_or_path);
     if (suffix == ".toml") return parse_yarn_toml(text, preset_or_path, load_texture);
     if (suffix == ".txt") return parse_yarn_fit(text, preset_or_path);
-    throw Error(ErrorCode::Unsupported, str("the suffix '", suffix, "' names no form of a yarn"),
+    throw Error(ErrorCode::Unsupported, str("the suffix '", suffix, "' is not that of a yarn file"),
                 "give a fit as .txt or a yarn as .toml", {.path = preset_or_path});
 }
 

@@ -12,7 +12,8 @@
 namespace heddle::yarn_form {
 namespace {
 
-constexpr double kLong = 1e9; ///< of lengths, in model units: far beyond any, far from overflow
+/// of lengths, in model units: far above real ones, far from overflow
+constexpr double kLong = 1e9;
 constexpr auto kAny = YarnModel::Solid;
 constexpr auto kPly = YarnModel::Procedural;
 constexpr auto kSlice = YarnModel::Slice;
@@ -22,7 +23,7 @@ std::string range_text(const Field& field) {
                field.most);
 }
 
-/// Fraction of the slice's square that is fiber, by its alpha; 0 where there is no image.
+/// The fraction of the slice's square that its alpha marks as fiber; 0 if there is no image.
 double mean_alpha(const Texture& slice) {
     if (slice.texels.empty()) return 0.0;
     if (slice.channels != 4) return 1.0;
@@ -51,7 +52,7 @@ const std::vector<Field>& fields() {
         {"ellipse_short", "ellipse_short", kPly, &Y::ellipse_short, 0, kLong, true, true},
         {"density_epsilon", "epsilon", kPly, &Y::density_epsilon, 0, 0.5, false, true},
         {"density_beta", "beta", kPly, &Y::density_beta, 0, 1e3, false, true},
-        // beyond the unit section the density of fibers is not defined
+        // outside of the unit section the density of fibers is not defined
         {"density_r_max", "R_max", kPly, &Y::density_r_max, 0, 1, true, true},
         {"migration", "use_migration", kPly, &Y::migration, 0, 1, false, true},
         {"migration_frequency", "s_i", kPly, &Y::migration_frequency, 0, 1e6},
@@ -96,10 +97,10 @@ void set_field(YarnType& yarn,
             return;
         }
         for (std::size_t i = 0; i < count; ++i) {
-            const double least = pair && i == 1 ? 0.0 : field.least; // a deviation is not negative
+            const double least = pair && i == 1 ? 0.0 : field.least; // a deviation is at least 0
             const double x = numbers[i];
             const bool whole = !std::is_integral_v<T> || x == std::floor(x);
-            // a number above 0 that a float cannot tell from 0 is 0 later on
+            // a number above 0 that becomes 0 as a float counts as 0
             const bool inside =
                 x >= least && x <= field.most &&
                 !(field.above && static_cast<float>(x) <= static_cast<float>(least));
@@ -140,11 +141,11 @@ std::string complete(YarnType& yarn, FileProblems& problems) {
     if (yarn.model == YarnModel::Slice) {
         const double r = static_cast<double>(yarn.model_radius);
         area = mean_alpha(yarn.slice) * 4.0 * r * r / (std::numbers::pi * yarn.slice_fibers);
-        why = str(yarn.slice_fibers, " fibers fill what the slice's alpha says");
+        why = str(yarn.slice_fibers, " fibers fill the area that the slice's alpha gives");
     }
     yarn.fiber_radius = static_cast<float>(std::sqrt(area));
     if (!(yarn.fiber_radius > 0.0f)) problems.add(0, "the fibers are infinitely thin");
-    return str("no fiber radius is named: ", yarn.fiber_radius, " is used (",
+    return str("no fiber radius is given: ", yarn.fiber_radius, " is used (",
                yarn.fiber_radius / yarn.model_radius, " of the yarn's), so that ", why);
 }
 

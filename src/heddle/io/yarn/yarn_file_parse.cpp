@@ -34,7 +34,7 @@ std::string_view trim(std::string_view s) {
     return s;
 }
 
-/// Numbers separated by blanks, commas and brackets; nothing where one is no number.
+/// Numbers separated by blanks, commas and brackets; nothing if one of them is not a number.
 std::optional<std::vector<double>> parse_numbers(std::string_view text) {
     std::vector<double> numbers;
     const char* p = text.data();
@@ -54,17 +54,17 @@ std::optional<std::vector<double>> parse_numbers(std::string_view text) {
     }
 }
 
-/// How the fit was sampled; says nothing about the yarn.
+/// Settings of how the fit was sampled; they say nothing about the yarn.
 constexpr std::array<std::string_view, 5> kFitSettings{"aabb_min", "aabb_max", "z_step_size",
                                                        "z_step_num", "fly_step_size"};
 
-using Lines = std::map<std::string, std::int64_t, std::less<>>; ///< key to the line it stands on
+using Lines = std::map<std::string, std::int64_t, std::less<>>; ///< key to its line
 
 void read_fit_line(
     std::string_view line, std::int64_t n, YarnType& yarn, Lines& seen, FileProblems& p) {
     const std::size_t colon = line.find(':');
     if (colon == std::string_view::npos) {
-        p.add(n, "is no line 'key: value'");
+        p.add(n, "is not a line 'key: value'");
         return;
     }
     const std::string_view key = trim(line.substr(0, colon));
@@ -99,7 +99,7 @@ void require_fit_keys(const YarnType& yarn, const Lines& seen, FileProblems& pro
     }
 }
 
-/// The numbers of a TOML value: of a number, a flag, or an array of numbers.
+/// The numbers of a TOML value: of a number, a flag or an array of numbers.
 std::optional<std::vector<double>> toml_numbers(const toml::node& node) {
     std::vector<double> numbers;
     const auto add = [&](const toml::node& n) {
@@ -138,7 +138,7 @@ void read_model(const toml::table& table, YarnType& yarn, FileProblems& problems
     problems.add(line_of(*node), "'model' must be \"procedural\", \"slice\" or \"solid\"");
 }
 
-/// Name and slice: the keys that hold text.
+/// Reads name and slice, the keys whose values are text.
 void read_text_key(const toml::node& node,
                    std::string_view key,
                    const std::string& path,
@@ -161,7 +161,7 @@ void read_text_key(const toml::node& node,
                                             " channels, a slice needs RGB and alpha"));
             yarn.slice = {};
         }
-        yarn.slice.name = *text; // as the file has it, so that it can be written again
+        yarn.slice.name = *text; // as in the file, so that it can be written again
     }
 }
 
@@ -191,7 +191,7 @@ void read_number_key(const toml::node& node,
                  str("unknown key '", key.substr(0, 64), "'", yarn_form::suggest(key, known)));
 }
 
-/// The shortest decimal that reads back as the same float.
+/// The shortest decimal that is read as the same float.
 std::string shortest(float x) {
     std::array<char, 32> text{};
     return {text.data(), std::to_chars(text.data(), text.data() + text.size(), x).ptr};
@@ -239,7 +239,7 @@ parse_yarn_toml(const std::string& text, const std::string& path, const LoadText
     YarnType yarn;
     yarn.name = std::filesystem::path(path).stem().string();
     read_model(*table, yarn, problems);
-    problems.all().throw_if_any(); // which keys there are depends on it
+    problems.all().throw_if_any(); // the allowed keys depend on the model
     for (const auto& [key, node] : *table) {
         if (key == "model") continue;
         if (key == "name" || key == "slice") {
@@ -261,7 +261,7 @@ std::string write_yarn_toml(const YarnType& yarn) {
     if (yarn.model == YarnModel::Slice) out += str("slice = ", quote(yarn.slice.name), "\n");
     for (const Field& field : yarn_form::fields()) {
         if (field.model != YarnModel::Solid && field.model != yarn.model) continue;
-        // 0 stands for "not known yet" and would be refused
+        // 0 means "not known yet" and would be rejected
         const bool unset = field.key == "fiber_radius" && yarn.fiber_radius == 0.0f;
         if (!unset) out += str(field.key, " = ", toml_value(yarn, field), "\n");
     }

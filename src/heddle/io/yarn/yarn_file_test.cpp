@@ -54,7 +54,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 #define EXPECT_HAS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
-/// What the Error says, each line of which names the file; empty when there is none.
+/// The text of the Error, each line of which names the file; empty if there is none.
 template <typename F>
 std::string error_of(const std::string& path, const F& f) {
     try {
@@ -133,7 +133,7 @@ TEST(YarnFile, FitRefusesWhatIsNoNumberOrOutOfRange) {
                             "0x10", "", "1 2", "1,", "--1", "1..2", "one"}) {
         const std::string text = replaced(kFit, "yarn_radius: 0.038", str("yarn_radius: ", bad));
         if (std::string(bad) == "1,") {
-            EXPECT_EQ(fit_error(text), ""); // separators are free
+            EXPECT_EQ(fit_error(text), ""); // separators may vary
         } else {
             EXPECT_HAS(fit_error(text), "a.txt:10: ");
         }
@@ -152,7 +152,7 @@ TEST(YarnFile, EveryTruncationOfAFitIsAnErrorOrAYarn) {
     for (std::size_t n = 0; n < kFit.size(); ++n) {
         if (fit_error(kFit.substr(0, n)).empty()) ++good;
     }
-    EXPECT_LE(good, 7u); // only inside the last line's last number
+    EXPECT_LE(good, 7u); // only within the last number of the last line
 }
 
 TEST(YarnFile, EveryTruncationAndFlippedByteOfATomlIsAnErrorOrAYarn) {
@@ -242,7 +242,7 @@ TEST(YarnFile, SliceImageIsLoadedRelativeToTheFile) {
     EXPECT_EQ(asked, "dir/img/a.png");
     EXPECT_EQ(f.yarn.twist, -2.5f);
     EXPECT_EQ(f.yarn.slice.width, 2);
-    // 150 fibers of that radius are half of the square of side 2
+    // 150 fibers of that radius fill half of the square of side 2
     EXPECT_NEAR(150.0f * 3.14159265f * f.yarn.fiber_radius * f.yarn.fiber_radius, 2.0f, 1e-3f);
     EXPECT_TRUE(same(f.yarn, parse_yarn_toml(write_yarn_toml(f.yarn), "dir/y.toml", load).yarn));
     EXPECT_HAS(toml_error(text), "no image can be loaded");

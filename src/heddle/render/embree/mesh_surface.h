@@ -1,10 +1,9 @@
 #pragma once
 
 #include <heddle/geom/geometry.h>
-#include <heddle/surface/texture_filter.h>
+#include <heddle/surface/surface_maps.h>
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 namespace heddle {
@@ -39,27 +38,15 @@ public:
     /// Covered fraction at a point: 0 or 1 for masks.
     [[nodiscard]] float alpha(std::size_t mesh, TrianglePoint at) const;
     [[nodiscard]] MeshSample sample(std::size_t mesh, TrianglePoint at) const;
-    [[nodiscard]] std::int64_t byte_count() const;
+    [[nodiscard]] std::int64_t byte_count() const { return maps_.bytes(); }
 
 private:
-    struct Maps {
-        const FilteredTexture* albedo = nullptr;
-        const FilteredTexture* normal = nullptr;
-        const FilteredTexture* metal_rough = nullptr;
-        const FilteredTexture* anisotropy = nullptr;
-        float rotation_cos = 1.0f, rotation_sin = 0.0f;
-    };
-    struct Frame {
-        Vec3f normal, tangent, bitangent;
-    };
-    const FilteredTexture*
-    add_texture(std::int32_t index, TexelWeight weight, float threshold, bool levels);
-    Maps make_maps(const Material& material);
-    [[nodiscard]] Frame frame(const Mesh& mesh, TrianglePoint at) const;
+    [[nodiscard]] const SurfaceMaps& maps_of(const MeshView& mesh) const {
+        return maps_.materials()[mesh.material];
+    }
 
-    const Geometry& geometry_;
-    std::vector<std::unique_ptr<FilteredTexture>> textures_;
-    std::vector<Maps> maps_; ///< per material
+    GeometryMaps maps_;
+    std::vector<MeshView> meshes_;
 };
 
 } // namespace heddle

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 
 namespace heddle {
 namespace {
@@ -12,17 +13,6 @@ namespace {
 /// flame_ribbing_pattern.bcc with 30 to 150 fibers), and a tenth for flyaway hairs. The builder's
 /// own lists are gone before the tree is full: the peak is what is held.
 constexpr std::int64_t kBytesPerSegment = 118;
-
-/// A grid so coarse that the source cuts no span into parts.
-LatticeUnits units_of(const Geometry& geometry) {
-    Bounds box;
-    for (const CurveSet& set : geometry.curves) {
-        for (const Vec3f p : set.points) box.grow(to_double(p));
-    }
-    const Vec3d size = box.size();
-    const double edge = 1.0 + std::max({size.x, size.y, size.z});
-    return LatticeUnits(Lattice{{edge, edge, edge}, 1});
-}
 
 RTCGeometryType type_of(RoundBasis basis) {
     switch (basis) {
@@ -75,7 +65,8 @@ void ObjectScene::add_curves(Progress& progress) {
                         geometry_->materials.size()),
                     "give every set a material of the geometry");
     }
-    const FiberSource source(*geometry_, units_of(*geometry_), options_.seed);
+    constexpr double kWholeSpans = std::numeric_limits<double>::infinity();
+    const FiberSource source(*geometry_, kWholeSpans, options_.seed);
     std::uint64_t first_span = 0;
     for (std::uint32_t s = 0; s < geometry_->curves.size(); ++s) {
         const CurveSet& set = geometry_->curves[s];

@@ -56,7 +56,7 @@ HairCurves hairs_of(const FiberSource& source, std::uint64_t first_span) {
     const HairModel model(HairShape(path.yarn()), path.total(), path.closed());
     HairCurves out;
     for (std::size_t ply = 0; ply < path.ply_count(); ++ply) {
-        model.for_each(path.seed(), path.curve(), ply, 0.0, path.total(),
+        model.for_each({path.seed(), path.curve(), ply}, 0.0, path.total(),
                        [&](const FlyawayHair& hair) { out.add(path, ply, hair); });
     }
     return out;

@@ -3,16 +3,8 @@
 #include <heddle/yarn/flyaway.h>
 
 namespace heddle {
-namespace {
-
-Vec3d unit_perpendicular(Vec3d t) {
-    return to_double(any_perpendicular(to_float(t)));
-}
-
-} // namespace
-
 YarnPath::YarnPath(const FiberSource& source, std::uint64_t first_span)
-    : yarn_(*source.yarn_of(source.whole_span(first_span).set)), unit_(source.units().unit) {
+    : yarn_(*source.yarn_of(source.whole_span(first_span).set)) {
     const FiberPiece first = source.whole_span(first_span);
     seed_ = source.seed() + first.set;
     curve_ = first.curve;
@@ -21,7 +13,7 @@ YarnPath::YarnPath(const FiberSource& source, std::uint64_t first_span)
     spans_.reserve(set.span_count(curve_));
     for (std::uint64_t k = 0; k < set.span_count(curve_); ++k) {
         const FiberPiece piece = source.whole_span(first_span + k);
-        spans_.push_back({piece.cubic, source.course(piece)});
+        spans_.push_back({piece.cubic, source.course(piece, 1.0)});
     }
     const auto d = [](float x) { return static_cast<double>(x); };
     if (yarn_.model == YarnModel::Slice) {
@@ -43,19 +35,7 @@ YarnPlace YarnPath::at(double t) const {
     if (closed() && t >= count) t -= count; // whole rounds are whole turns of all
     const double k = std::clamp(std::floor(t), 0.0, count - 1.0);
     const Span& span = spans_[static_cast<std::size_t>(k)];
-    const YarnCourse& course = span.course;
-    const double x = t - k;
-    const Vec3d tangent = normalize(span.cubic.derivative(x));
-    const Vec3d lerped = (1.0 - x) * to_double(course.normal0) + x * to_double(course.normal1);
-    YarnPlace place;
-    place.center = span.cubic.at(x);
-    place.normal = normalize(lerped - dot(lerped, tangent) * tangent, unit_perpendicular(tangent));
-    place.s = course.start + course.length * x;
-    place.binormal = cross(tangent, place.normal);
-    const auto r0 = static_cast<double>(course.scale0);
-    const auto r1 = static_cast<double>(course.scale1);
-    place.scale = unit_ * ((1.0 - x) * r0 + x * r1);
-    return place;
+    return {span.cubic, span.course, t - k};
 }
 
 double YarnPath::knot_of_length(double s) const {
@@ -71,9 +51,7 @@ double YarnPath::knot_of_length(double s) const {
 }
 
 PlyPlace YarnPath::ply(const YarnPlace& at, std::size_t ply) const {
-    const YarnCourse& course = spans_.front().course;
-    const double closing = course.total > 0.0 ? course.closing_turns * at.s / course.total : 0.0;
-    const SinCos turned = sincos_turns(course.turns_per_length[0] * at.s + closing);
+    const SinCos turned = sincos_turns(spans_.front().course.ply_turns(at.s));
     const auto d = [](float x) { return static_cast<double>(x); };
     const double c =
         d(table_.ply_cos[ply]) * d(turned.cos) - d(table_.ply_sin[ply]) * d(turned.sin);

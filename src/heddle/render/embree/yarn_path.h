@@ -4,6 +4,7 @@
 #include <heddle/render/embree/round_curves.h>
 #include <heddle/yarn/fiber_source.h>
 #include <heddle/yarn/fiber_table.h>
+#include <heddle/yarn/yarn_section.h>
 
 #include <cmath>
 #include <cstdint>
@@ -11,12 +12,9 @@
 
 namespace heddle {
 
-/// One place of a yarn: what its fibers there are made of. Scene units.
-struct YarnPlace {
-    Vec3d center, normal, binormal; ///< the last two unit, across the yarn
-    double s = 0.0;                 ///< yarn length since its start, model units
-    double scale = 1.0;             ///< scene units a model unit
-};
+/// One place of a yarn: what its fibers there are made of. All in scene units: `scale` too is scene
+/// units a model unit.
+using YarnPlace = YarnSection<double>;
 
 /// Where a ply's section stands at one place.
 struct PlyPlace {
@@ -59,7 +57,6 @@ private:
     [[nodiscard]] double loop_factor(std::size_t fiber, double s) const;
 
     const YarnType& yarn_;
-    double unit_; ///< of the source, scene units
     std::uint64_t seed_;
     std::uint64_t curve_ = 0;
     FiberTable table_;

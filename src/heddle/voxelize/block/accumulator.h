@@ -43,7 +43,7 @@ public:
 
     /// The voxel's sums, made empty at the first call. (x, y, z) relative to lo, inside the block.
     HEDDLE_HOST_INLINE VoxelSums& voxel(int x, int y, int z) {
-        return voxel_at(static_cast<std::uint32_t>((x * kBlockVoxels + y) * kBlockVoxels + z));
+        return voxel_at(number_of(x, y, z));
     }
     /// Voxels that take what lanes without a hit write: numbers kVoxels and on.
     static constexpr int kSpareVoxels = 16;
@@ -89,13 +89,12 @@ public:
     [[nodiscard]] int count() const { return count_; }
     /// The voxel at (x, y, z) relative to lo, or null.
     [[nodiscard]] const VoxelSums* find(int x, int y, int z) const {
-        const std::uint16_t slot =
-            table_[static_cast<std::size_t>((x * kBlockVoxels + y) * kBlockVoxels + z)];
+        const std::uint16_t slot = table_[number_of(x, y, z)];
         return slot == kNone ? nullptr : &voxels_[slot];
     }
     /// The row of voxels (x, y, 0 .. kBlockVoxels - 1) relative to lo: kNone, or what `at_slot` takes.
     [[nodiscard]] const std::uint16_t* slots(int x, int y) const {
-        return &table_[static_cast<std::size_t>((x * kBlockVoxels + y) * kBlockVoxels)];
+        return &table_[number_of(x, y, 0)];
     }
     [[nodiscard]] const VoxelSums& at_slot(std::uint16_t slot) const { return voxels_[slot]; }
     [[nodiscard]] const LobeSums* next(const LobeSums& lobe) const {
@@ -105,6 +104,10 @@ public:
     [[nodiscard]] bool has_maps() const { return with_maps_; }
 
 private:
+    /// Of a voxel in the table, as voxel_at() takes it.
+    [[nodiscard]] static HEDDLE_HOST_INLINE std::uint32_t number_of(int x, int y, int z) {
+        return static_cast<std::uint32_t>((x * kBlockVoxels + y) * kBlockVoxels + z);
+    }
     LobeSums& other_lobe(VoxelSums& voxel, std::uint32_t material);
 
     Vec3i lo_, hi_;

@@ -64,8 +64,9 @@ HEDDLE_INLINE std::uint32_t pool_lobes(BlockFit& fit, const VoxelSums& voxel) {
     }
     for (const LobeSums* l : list) {
         if (pool.count == kMaxPool) reduce_by_moments(pool, kMaxLobes, with_maps);
-        DirectionSums lobe{
-            .weight = l->weight, .material = l->material, .normals = options.normals[l->material]};
+        DirectionSums lobe{.weight = l->weight,
+                           .material = l->material,
+                           .normals = options.normals.has(l->material)};
         std::copy_n(l->moment.begin(), 6, lobe.moment);
         pool.add(lobe, sums.find_maps(voxel, *l));
     }

@@ -2,17 +2,9 @@
 
 #include <heddle/voxel/voxel_grid.h>
 #include <heddle/voxelize/block/accumulator.h>
+#include <heddle/voxelize/block/fit_options.h>
 
 namespace heddle {
-
-/// How sums become stored voxels.
-struct FitOptions {
-    int subvoxels = 8;
-    int max_lobes = 3;
-    bool project_subvoxels = false;  ///< CoverageMode::Mask: coverage from the subvoxel mask
-    VoxelGridFields fields;          ///< with `masks`, sums are kept too
-    std::array<bool, 256> normals{}; ///< by material: its lobes are of normals
-};
 
 /// What a block's sums amounted to; for the planner's estimates.
 struct BlockCounts {

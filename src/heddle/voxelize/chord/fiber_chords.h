@@ -39,11 +39,13 @@ template <typename Yarn>
     return count < 1.0 ? 1 : count > 4096.0 ? 4096 : static_cast<int>(count);
 }
 
-/// Chords of a yarn's fibers along a piece. @param length  of the piece's control polygon, units
-[[nodiscard]] HEDDLE_HD inline int yarn_chord_count(const LocalCubic& cubic,
+/// Chords of a yarn's fibers along a piece.
+/// @param cubic   the piece's
+/// @param course  the piece's
+[[nodiscard]] HEDDLE_HD inline int yarn_chord_count(const FiberPiece& piece,
+                                                    const LocalCubic& cubic,
                                                     const YarnCourse& course,
                                                     const PlySection& section,
-                                                    double length,
                                                     const LatticeUnits& u) {
     // |P''| of a helix of radius r that turns by w over the piece is r w^2
     const double turn0 = 6.2831853 * std::fabs(course.turns_per_length[0]) * course.length;
@@ -57,7 +59,7 @@ template <typename Yarn>
         static_cast<double>(cubic.bend()) +
         static_cast<double>(thick) * (static_cast<double>(section.offset) * turn0 * turn0 +
                                       static_cast<double>(wide) * all * all);
-    return chord_count(bend, length, u);
+    return chord_count(bend, piece.cubic.polygon_length() / u.unit, u);
 }
 
 /// Where a single curve's piece meets what is before and after it.
@@ -123,6 +125,26 @@ HEDDLE_INLINE void for_each_plain_chord(const LocalCubic& cubic,
     if (!any) return;
     last.after = last.radius * (ends.linear ? ends.turn_after : turn_from(last, 1.0f));
     emit(last);
+}
+
+/// The same of a piece as its geometry has it.
+/// @param cubic  the piece's
+template <typename Emit>
+HEDDLE_INLINE void for_each_plain_chord(const FiberView& fibers,
+                                        const FiberPiece& piece,
+                                        const LocalCubic& cubic,
+                                        const LatticeUnits& u,
+                                        Emit&& emit) {
+    const CurveSetView& set = fibers.sets[piece.set];
+    const int count =
+        chord_count(static_cast<double>(cubic.bend()), piece.cubic.polygon_length() / u.unit, u);
+    PlainEnds ends;
+    ends.linear = set.basis == Basis::Linear;
+    if (ends.linear) {
+        ends.turn_before = joint_turn(set, piece, false);
+        ends.turn_after = joint_turn(set, piece, true);
+    }
+    for_each_plain_chord(cubic, fibers.course(piece, u.unit), ends, count, emit);
 }
 
 /// The path of a hair flyaway about its yarn's piece, in chords.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <heddle/base/bits.h>
+#include <heddle/voxel/sum_fields.h>
 #include <heddle/voxel/weight.h>
 #include <heddle/voxelize/chord/column_scan.h>
 
@@ -39,6 +40,38 @@ clip_to_voxel(Vec3f origin, Vec3f inv_dir, Vec3f voxel, float grow, AxialRange r
     return range;
 }
 
+/// The flat ends of a cylinder, as they cut columns along z.
+class FlatEnds {
+public:
+    HEDDLE_INLINE FlatEnds(const LatticeUnits& u, const ColumnView& v) : u_(u), v_(v) {
+        const float step = u.edge.z * v.dc; // axial coordinate from one subvoxel to the next
+        horizontal_ = step < 1e-6f && step > -1e-6f;
+        inv_step_ = 1.0f / (horizontal_ ? 1.0f : step);
+    }
+    /// Subvoxels of a column of the voxel whose centres lie between the ends; empty: last < first.
+    HEDDLE_INLINE ColumnRange subvoxels_of(int x, int y) const {
+        constexpr ColumnRange kNone{0, -1};
+        const auto most = static_cast<float>(u_.n);
+        const float qa = (static_cast<float>(x) + 0.5f) * v_.ea - v_.oa;
+        const float qb = (static_cast<float>(y) + 0.5f) * v_.eb - v_.ob;
+        const float axial =
+            qa * v_.da + qb * v_.db + (0.5f * u_.edge.z - v_.oc) * v_.dc; // of subvoxel 0
+        if (horizontal_ && (axial < v_.lo || axial > v_.hi)) return kNone;
+        const float end0 = horizontal_ ? -1.0f : (v_.lo - axial) * inv_step_;
+        const float end1 = horizontal_ ? most : (v_.hi - axial) * inv_step_;
+        const float near = end0 < end1 ? end0 : end1;
+        const float far = end0 < end1 ? end1 : end0;
+        if (!(near < most) || !(far > -1.0f)) return kNone;
+        return {-floor_to_int(near > -1.0f ? -near : 1.0f), floor_to_int(far < most ? far : most)};
+    }
+
+private:
+    const LatticeUnits& u_;
+    const ColumnView& v_;
+    bool horizontal_;
+    float inv_step_;
+};
+
 /// Sets the subvoxels whose centres lie in the cylinder, from a patch of columns along z: a run in each.
 /// @param sums  has or_subvoxels(cell, word, bits)
 /// @return      subvoxels in the runs
@@ -51,31 +84,18 @@ HEDDLE_INLINE int mark_subvoxels(const Sums& sums,
                                  int b0,
                                  std::uint32_t hits,
                                  const PatchDepths& depths) {
-    const float step = u.edge.z * v.dc; // axial coordinate from one subvoxel to the next
-    const bool level = step < 1e-6f && step > -1e-6f;
-    const float inv_step = 1.0f / (level ? 1.0f : step);
-    const auto most = static_cast<float>(u.n);
+    const FlatEnds ends(u, v);
     int marked = 0;
     for (; hits != 0; hits &= hits - 1) {
         const int lane = lowest_bit(hits);
         const int x = a0 + (lane & 3);
         const int y = b0 + (lane >> 2);
         if (x >= u.n || y >= u.n) continue;
-        const float qa = (static_cast<float>(x) + 0.5f) * v.ea - v.oa;
-        const float qb = (static_cast<float>(y) + 0.5f) * v.eb - v.ob;
-        const float axial =
-            qa * v.da + qb * v.db + (0.5f * u.edge.z - v.oc) * v.dc; // of subvoxel 0
-        if (level && (axial < v.lo || axial > v.hi)) continue;
-        const float end0 = level ? -1.0f : (v.lo - axial) * inv_step;
-        const float end1 = level ? most : (v.hi - axial) * inv_step;
-        const float near = end0 < end1 ? end0 : end1;
-        const float far = end0 < end1 ? end1 : end0;
-        if (!(near < most) || !(far > -1.0f)) continue;
-        const int flat0 = -floor_to_int(near > -1.0f ? -near : 1.0f);
-        const int flat1 = floor_to_int(far < most ? far : most);
+        const ColumnRange flat = ends.subvoxels_of(x, y);
+        if (flat.last < flat.first) continue;
         const ColumnRange z = columns_in(depths.enter[lane], depths.leave[lane], u.inv_edge.z, u.n);
-        const int first = z.first > flat0 ? z.first : flat0;
-        const int count = (z.last < flat1 ? z.last : flat1) - first + 1;
+        const int first = z.first > flat.first ? z.first : flat.first;
+        const int count = (z.last < flat.last ? z.last : flat.last) - first + 1;
         if (count <= 0) continue;
         const int bit = (x * u.n + y) * u.n + first;
         sums.or_subvoxels(cell, bit >> 6, ((std::uint64_t{1} << count) - 1) << (bit & 63));
@@ -85,20 +105,26 @@ HEDDLE_INLINE int mark_subvoxels(const Sums& sums,
 }
 
 /// Adds `weight` (units^2, at least kGrazeWeight) of directions and the fiber's colour.
-/// @param sums    has add_lobe(cell, field, x) with fields xx yy zz xy xz yz, weight; has_maps();
-///                add_map(cell, field, x) with fields as MapSums lies
+/// @param sums    has add_lobe(cell, field, x), see LobeField; has_maps(); add_map(cell, field, x),
+///                see MapField
 /// @param moment  second moment of the directions, trace 1: xx yy zz xy xz yz
 template <typename Sums>
 HEDDLE_INLINE void
 pool_fiber(const Sums& sums, int cell, const float* moment, float weight, std::uint32_t color) {
     const float w = (weight > kGrazeWeight ? weight : kGrazeWeight) * kWeightScale;
-    for (int i = 0; i < 6; ++i) sums.add_lobe(cell, i, static_cast<std::int64_t>(moment[i] * w));
+    for (int i = 0; i < 6; ++i) {
+        sums.add_lobe(cell, LobeField::Moment + i, static_cast<std::int64_t>(moment[i] * w));
+    }
     const auto area = static_cast<std::int64_t>(w);
-    sums.add_lobe(cell, 6, area);
+    sums.add_lobe(cell, LobeField::Weight, area);
     if (!sums.has_maps()) return;
-    for (int i = 0; i < 3; ++i) sums.add_map(cell, 6 + i, area * ((color >> (8 * i)) & 0xff));
+    for (int i = 0; i < 3; ++i) {
+        sums.add_map(cell, MapField::Albedo + i, area * ((color >> (8 * i)) & 0xff));
+    }
     // a fiber's material has no such maps: its own numbers, unchanged
-    for (int i = 9; i < 12; ++i) sums.add_map(cell, i, 255 * area);
+    sums.add_map(cell, MapField::Roughness, 255 * area);
+    sums.add_map(cell, MapField::Metalness, 255 * area);
+    sums.add_map(cell, MapField::Anisotropy, 255 * area);
 }
 
 /// Second moment of one direction: xx yy zz xy xz yz.
@@ -160,32 +186,52 @@ HEDDLE_INLINE void gather_voxel(const Sums& sums,
     sums.pool(cell, DirectionMoment(k.dir).v, weight);
 }
 
+/// Voxels [lo, hi] of a block.
+struct ReachedVoxels {
+    Vec3i lo, hi;
+};
+/// Those that the box of a chord's round body touches.
+/// @param anchor  the voxel that the chord is relative to, relative to the block's lo
+HEDDLE_INLINE ReachedVoxels voxels_reached(const Chord& chord,
+                                           Vec3i anchor,
+                                           const LatticeUnits& u,
+                                           Vec3i size) {
+    ReachedVoxels out;
+    for (int a = 0; a < 3; ++a) {
+        const float p0 = chord.start[a] - chord.dir[a] * chord.before;
+        const float p1 = chord.start[a] + chord.dir[a] * (chord.length + chord.after);
+        const float least = ((p0 < p1 ? p0 : p1) - chord.radius) * u.inv_voxel[a];
+        const float most = ((p0 < p1 ? p1 : p0) + chord.radius) * u.inv_voxel[a];
+        const int lo = floor_to_int(least) + anchor[a];
+        const int hi = floor_to_int(most) + anchor[a];
+        out.lo[a] = lo > 0 ? lo : 0;
+        out.hi[a] = hi < size[a] ? hi : size[a] - 1;
+    }
+    return out;
+}
+
+/// 1 / d per axis, finite.
+HEDDLE_INLINE Vec3f inverse_of(Vec3f d) {
+    Vec3f out;
+    for (int a = 0; a < 3; ++a) {
+        const float safe = d[a] > 1e-12f || d[a] < -1e-12f ? d[a] : 1e-12f;
+        out[a] = 1.0f / safe;
+    }
+    return out;
+}
+
 /// Adds a chord thicker than kThickRadius to the voxels of a block that its round body meets.
 /// @param sums    as FiberSums
 /// @param size    of the block, voxels
-/// @param anchor  the voxel that the chord is relative to, relative to the block's lo
+/// @param anchor  as for voxels_reached()
 template <typename Sums>
 HEDDLE_INLINE void gather_chord(
     const Sums& sums, const LatticeUnits& u, Vec3i size, const Chord& chord, Vec3i anchor) {
-    Vec3f inv_dir;
-    int lo[3]{};
-    int hi[3]{};
-    for (int a = 0; a < 3; ++a) {
-        const float d = chord.dir[a];
-        const float safe = d > 1e-12f || d < -1e-12f ? d : 1e-12f;
-        inv_dir[a] = 1.0f / safe;
-        const float p0 = chord.start[a] - d * chord.before;
-        const float p1 = chord.start[a] + d * (chord.length + chord.after);
-        const float least = ((p0 < p1 ? p0 : p1) - chord.radius) * u.inv_voxel[a];
-        const float most = ((p0 < p1 ? p1 : p0) + chord.radius) * u.inv_voxel[a];
-        lo[a] = floor_to_int(least) + anchor[a];
-        hi[a] = floor_to_int(most) + anchor[a];
-        lo[a] = lo[a] > 0 ? lo[a] : 0;
-        hi[a] = hi[a] < size[a] ? hi[a] : size[a] - 1;
-    }
-    for (int x = lo[0]; x <= hi[0]; ++x) {
-        for (int y = lo[1]; y <= hi[1]; ++y) {
-            for (int z = lo[2]; z <= hi[2]; ++z) {
+    const Vec3f inv_dir = inverse_of(chord.dir);
+    const ReachedVoxels reached = voxels_reached(chord, anchor, u, size);
+    for (int x = reached.lo.x; x <= reached.hi.x; ++x) {
+        for (int y = reached.lo.y; y <= reached.hi.y; ++y) {
+            for (int z = reached.lo.z; z <= reached.hi.z; ++z) {
                 const Vec3f corner{static_cast<float>(x - anchor.x) * u.voxel.x,
                                    static_cast<float>(y - anchor.y) * u.voxel.y,
                                    static_cast<float>(z - anchor.z) * u.voxel.z};

@@ -1,18 +1,29 @@
 #pragma once
 
 #include <heddle/base/trig.h>
+#include <heddle/voxel/lattice_units.h>
 #include <heddle/voxelize/chord/fiber_tile.h>
 #include <heddle/yarn/fiber_view.h>
+#include <heddle/yarn/yarn_section.h>
 
 #include <algorithm>
 #include <cmath>
 
 namespace heddle {
 
+/// What pieces of spans are at most long, units: half a block, so that a long hair visits the blocks
+/// along it and not those of its box, and single precision resolves 1e-5 of a subvoxel beside a
+/// piece's anchor.
+constexpr double kPieceUnits = 128.0;
+
+/// The same in scene units: what a voxelizer's FiberSource is made with.
+[[nodiscard]] inline double piece_length_of(const LatticeUnits& units) {
+    return kPieceUnits * units.unit;
+}
+
 /// A piece's cubic in units, relative to the corner of its anchor voxel.
-struct LocalCubic {
+struct LocalCubic : PowerCubic<float> {
     Vec3i anchor; ///< voxel index
-    Vec3f c[4];
 
     HEDDLE_HD LocalCubic(const Cubic& cubic, const LatticeUnits& u) {
         for (int a = 0; a < 3; ++a) {
@@ -22,15 +33,6 @@ struct LocalCubic {
             for (int i = 1; i < 4; ++i) c[i][a] = static_cast<float>(cubic.c[i][a] / u.unit);
         }
     }
-    [[nodiscard]] HEDDLE_HD Vec3f at(float t) const {
-        return c[0] + t * (c[1] + t * (c[2] + t * c[3]));
-    }
-    [[nodiscard]] HEDDLE_HD Vec3f derivative(float t) const {
-        return c[1] + t * (2.0f * c[2] + (3.0f * t) * c[3]);
-    }
-    [[nodiscard]] HEDDLE_HD Vec3f second_derivative(float t) const {
-        return 2.0f * c[2] + (6.0f * t) * c[3];
-    }
     /// Largest |P''|: linear in t, so at one of the ends.
     [[nodiscard]] HEDDLE_HD float bend() const {
         return std::max(length(second_derivative(0.0f)), length(second_derivative(1.0f)));
@@ -38,24 +40,12 @@ struct LocalCubic {
 };
 
 /// A yarn's cross-section at one place, units; what its plies' frames are made of.
-struct YarnFrame {
-    Vec3f center, normal, binormal;
+struct YarnFrame : YarnSection<float> {
     SinCos ply;                  ///< turned by so much since the yarn's start
     SinCos fiber{}, migration{}; ///< the same, once twist() was called
-    double s;                    ///< yarn length since its start, model units
-    float scale;                 ///< units per model unit
 
-    HEDDLE_HD YarnFrame(const LocalCubic& cubic, const YarnCourse& course, float t) {
-        const Vec3f tangent = normalize(cubic.derivative(t));
-        const Vec3f lerped = course.normal0 * (1.0f - t) + course.normal1 * t;
-        normal = normalize(lerped - dot(lerped, tangent) * tangent, any_perpendicular(tangent));
-        binormal = cross(tangent, normal);
-        center = cubic.at(t);
-        scale = course.scale0 * (1.0f - t) + course.scale1 * t;
-        s = course.start + course.length * static_cast<double>(t);
-        const double closing = course.total > 0.0 ? course.closing_turns * s / course.total : 0.0;
-        ply = sincos_turns(course.turns_per_length[0] * s + closing);
-    }
+    HEDDLE_HD YarnFrame(const LocalCubic& cubic, const YarnCourse& course, float t)
+        : YarnSection(cubic, course, t), ply(sincos_turns(course.ply_turns(s))) {}
     /// Sets what fibers need beside their ply's frame.
     HEDDLE_HD void twist(const YarnCourse& course) {
         fiber = sincos_turns(course.turns_per_length[1] * s);

@@ -1,16 +1,28 @@
-// No include guard: included once for each instruction set, HEDDLE_ISA.
-// The fibers of a yarn, eight at once, from their table.
+#pragma once
 
-namespace heddle::HEDDLE_ISA {
+#include <heddle/voxelize/chord/expand_op.h>
+#include <heddle/voxelize/chord/fiber_tile.h>
+#include <heddle/yarn/fiber_table.h>
 
+#include <cstddef>
+#include <span>
+
+// The fibers of a yarn from their table, as many at once as lanes L have (lanes_*.h).
+
+namespace heddle {
+
+namespace lane_detail {
+
+template <typename L>
 inline void expand_sample(FiberTile& tile,
                           int sample,
                           std::size_t row,
                           const PlyPart& part,
                           const PlySection& section,
                           const FiberTable& table) {
+    using Real = typename L::Real;
     const PlyFrame at = part.frames[sample];
-    for (std::size_t f = 0; f < part.end - part.begin; f += kLanes) {
+    for (std::size_t f = 0; f < part.end - part.begin; f += L::kLanes) {
         const std::size_t i = part.begin + f;
         const FiberConstants<Real> fiber{
             Real::load(table.radius.data() + i), Real::load(table.cos_angle.data() + i),
@@ -26,7 +38,9 @@ inline void expand_sample(FiberTile& tile,
 }
 
 /// Chords between samples, which are moved to be the chords' ends.
+template <typename L>
 inline void make_chords(FiberTile& tile, int f) {
+    using Real = typename L::Real;
     const auto sample = [&](int j) {
         return LanePoint<Real>{Real::load(tile.x[j] + f), Real::load(tile.y[j] + f),
                                Real::load(tile.z[j] + f)};
@@ -60,22 +74,27 @@ inline void make_chords(FiberTile& tile, int f) {
     }
 }
 
-void expand(FiberTile& tile,
-            std::span<const PlyPart> parts,
-            const PlySection& section,
-            const FiberTable& table) {
+} // namespace lane_detail
+
+/// expand_fibers() (gather_kernels.h) over lanes L.
+template <typename L>
+inline void expand_with(FiberTile& tile,
+                        std::span<const PlyPart> parts,
+                        const PlySection& section,
+                        const FiberTable& table) {
+    using namespace lane_detail;
     for (int j = 0; j < tile.chords + 3; ++j) {
         std::size_t row = 0;
-        for (const PlyPart& part :
-             parts) { // a part's last lanes are overwritten by the next's first
-            expand_sample(tile, j, row, part, section, table);
+        // a part's last lanes are overwritten by the next's first
+        for (const PlyPart& part : parts) {
+            expand_sample<L>(tile, j, row, part, section, table);
             row += part.end - part.begin;
         }
     }
-    for (int f = 0; f < tile.fibers; f += kLanes) make_chords(tile, f);
-    for (int f = tile.fibers; f % kLanes != 0; ++f) {
+    for (int f = 0; f < tile.fibers; f += L::kLanes) make_chords<L>(tile, f);
+    for (int f = tile.fibers; f % L::kLanes != 0; ++f) {
         for (int c = 0; c < tile.chords; ++c) tile.length[c][f] = 0.0f; // no chord
     }
 }
 
-} // namespace heddle::HEDDLE_ISA
+} // namespace heddle

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <heddle/voxel/sum_fields.h>
 #include <heddle/voxelize/block/accumulator.h>
 #include <heddle/voxelize/chord/gather_chord.h>
 
@@ -30,17 +31,11 @@ struct LobeAdder {
     MapSums* maps;
 
     HEDDLE_HOST_INLINE void add_lobe(int, int field, std::int64_t x) const {
-        (field == 6 ? lobe.weight : lobe.moment[static_cast<std::size_t>(field)]) += x;
+        sum_of(lobe, field) += x;
     }
     [[nodiscard]] HEDDLE_HOST_INLINE bool has_maps() const { return maps != nullptr; }
     HEDDLE_HOST_INLINE void add_map(int, int field, std::int64_t x) const {
-        MapSums& m = *maps;
-        const auto i = static_cast<std::size_t>(field);
-        (i < 6     ? m.tangent[i]
-         : i < 9   ? m.albedo[i - 6]
-         : i == 9  ? m.roughness
-         : i == 10 ? m.metalness
-                   : m.anisotropy) += x;
+        map_sum_of(*maps, field) += x;
     }
 };
 

@@ -2,10 +2,12 @@
 #include <heddle/voxelize/fiber/gather_kernels.h>
 
 #include <heddle/voxelize/fiber/lanes_avx512.h>
-
-#include <bit>
-
-#define HEDDLE_ISA avx512
-#include <heddle/voxelize/fiber/pool_lanes.h>
-// mark_lanes.h stands on pool_lanes.h
 #include <heddle/voxelize/fiber/mark_lanes.h>
+
+namespace heddle::avx512 {
+
+void gather(const ChordArrays& chords, const GatherTarget& target) {
+    gather_with<Lanes>(chords, target);
+}
+
+} // namespace heddle::avx512

@@ -30,6 +30,7 @@ HEDDLE_CLONES void gather_thick(const Chord& chord, Vec3i anchor, const GatherTa
 
 struct FiberGatherer::State {
     const FiberSource& source;
+    LatticeUnits units;
     GatherOptions options;
     bool mask;        ///< CoverageMode::Mask
     FiberTable table; ///< of the yarn below
@@ -69,11 +70,10 @@ struct FiberGatherer::State {
 };
 
 GatherTarget FiberGatherer::State::target_of(std::uint32_t set, BlockSums& block) const {
-    const LatticeUnits& u = source.units();
     return {
         block,
-        u,
-        std::countr_zero(static_cast<unsigned>(u.n)),
+        units,
+        std::countr_zero(static_cast<unsigned>(units.n)),
         block.hi() - block.lo(),
         {.material = source.geometry().curves[set].material, .last = options.fit == FitMode::Last}};
 }
@@ -150,7 +150,7 @@ void FiberGatherer::State::gather_one_by_one(
 }
 
 void FiberGatherer::State::gather_piece(const FiberPiece& piece, BlockSums& block) {
-    const LocalCubic cubic(piece.cubic, source.units());
+    const LocalCubic cubic(piece.cubic, units);
     PieceTarget target{target_of(piece.set, block), cubic.anchor - block.lo(), piece.part,
                        piece.parts};
     const YarnType* yarn = source.yarn_of(piece.set);
@@ -164,24 +164,11 @@ void FiberGatherer::State::gather_piece(const FiberPiece& piece, BlockSums& bloc
 void FiberGatherer::State::gather_plain(const FiberPiece& piece,
                                         const LocalCubic& cubic,
                                         PieceTarget& target) {
-    const CurveSet& set = source.geometry().curves[piece.set];
-    const YarnCourse course = source.course(piece);
-    const int count =
-        chord_count(static_cast<double>(cubic.bend()),
-                    piece.cubic.polygon_length() / source.units().unit, source.units());
-    if (!set.color.empty()) {
-        const std::size_t skip = set.basis == Basis::Linear || set.is_closed(piece.curve) ? 0 : 1;
-        target.block.paint.color = set.color[set.first[piece.curve] + piece.span + skip];
-    }
-    const bool linear = set.basis == Basis::Linear;
-    PlainEnds ends{.linear = linear};
-    if (linear) {
-        const CurveSetView& view = source.view().sets[piece.set];
-        ends.turn_before = joint_turn(view, piece, false);
-        ends.turn_after = joint_turn(view, piece, true);
-    }
+    const FiberView fibers = source.view();
+    const CurveSetView& set = fibers.sets[piece.set];
+    if (set.color != nullptr) target.block.paint.color = set.color_of(piece);
     chords.clear();
-    for_each_plain_chord(cubic, course, ends, count, [&](const Chord& c) { chords.push_back(c); });
+    for_each_plain_chord(fibers, piece, cubic, units, [&](const Chord& c) { chords.push_back(c); });
     gather_run(target);
 }
 
@@ -195,10 +182,9 @@ void FiberGatherer::State::gather_yarn(const FiberPiece& piece,
         table_curve = piece.curve;
         loops.clear();
     }
-    const YarnCourse course = source.course(piece);
+    const YarnCourse course = source.course(piece, units.unit);
     const PlySection section = section_of(yarn);
-    const int count = yarn_chord_count(
-        cubic, course, section, piece.cubic.polygon_length() / source.units().unit, source.units());
+    const int count = yarn_chord_count(piece, cubic, course, section, units);
     const std::size_t plies = table.first_of_ply.size() - 1;
     frames.resize(plies * FiberTile::kSamples);
     for (int j0 = 0; j0 < count; j0 += FiberTile::kChords) {
@@ -291,7 +277,7 @@ void FiberGatherer::State::gather_hairs(const YarnType& yarn,
     const HairModel model(HairShape(yarn), course.total, course.closed);
     const std::uint64_t seed = source.seed() + table_set;
     for (std::size_t ply = 0; ply + 1 < table.first_of_ply.size(); ++ply) {
-        model.for_each(seed, table_curve, ply, course.start, course.start + course.length,
+        model.for_each({seed, table_curve, ply}, course.start, course.start + course.length,
                        [&](const FlyawayHair& hair) {
                            chords.clear();
                            HairPath{cubic,
@@ -306,8 +292,11 @@ void FiberGatherer::State::gather_hairs(const YarnType& yarn,
     }
 }
 
-FiberGatherer::FiberGatherer(const FiberSource& source, const GatherOptions& options)
+FiberGatherer::FiberGatherer(const FiberSource& source,
+                             const LatticeUnits& units,
+                             const GatherOptions& options)
     : state_(new State{.source = source,
+                       .units = units,
                        .options = options,
                        .mask = options.coverage == CoverageMode::Mask,
                        .table = {},
@@ -328,8 +317,7 @@ void FiberGatherer::gather(std::span<const PieceId> pieces,
     std::size_t done = 0;
     for (const PieceId id : pieces) {
         if (done++ % 64 == 0) progress.check();
-        const FiberPiece piece = FiberSource::part_of(state.source.whole_span(id >> 16),
-                                                      static_cast<std::uint32_t>(id & 0xffff));
+        const FiberPiece piece = state.source.view().piece(id);
         if (piece.set != set) state.queue.flush(state.target_of(set, block));
         set = piece.set;
         state.gather_piece(piece, block);

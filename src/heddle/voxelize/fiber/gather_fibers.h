@@ -16,7 +16,9 @@ namespace heddle {
 /// Expands yarns to fibers and adds them to blocks. One per thread: it keeps the last yarn's fibers.
 class FiberGatherer {
 public:
-    FiberGatherer(const FiberSource& source, const GatherOptions& options);
+    FiberGatherer(const FiberSource& source,
+                  const LatticeUnits& units,
+                  const GatherOptions& options);
     ~FiberGatherer();
     FiberGatherer(const FiberGatherer&) = delete;
     FiberGatherer& operator=(const FiberGatherer&) = delete;

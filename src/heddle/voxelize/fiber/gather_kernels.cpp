@@ -1,16 +1,25 @@
 #include <heddle/voxelize/fiber/gather_kernels.h>
 
-#include <heddle/voxelize/fiber/lanes_portable.h>
-
-#include <bit>
-
-#define HEDDLE_ISA portable
-#include <heddle/voxelize/fiber/pool_lanes.h>
-// mark_lanes.h stands on pool_lanes.h
 #include <heddle/voxelize/fiber/expand_lanes.h>
+#include <heddle/voxelize/fiber/lanes_portable.h>
 #include <heddle/voxelize/fiber/mark_lanes.h>
 
 namespace heddle {
+
+namespace portable {
+
+void gather(const ChordArrays& chords, const GatherTarget& target) {
+    gather_with<Lanes>(chords, target);
+}
+
+void expand(FiberTile& tile,
+            std::span<const PlyPart> parts,
+            const PlySection& section,
+            const FiberTable& table) {
+    expand_with<Lanes>(tile, parts, section, table);
+}
+
+} // namespace portable
 
 namespace {
 

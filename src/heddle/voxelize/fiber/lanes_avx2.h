@@ -114,10 +114,6 @@ inline Int pick(Int a, Int from) {
 inline Mask pick(Mask a, Int from) {
     return {_mm256_permutevar8x32_ps(a.v, from.v)};
 }
-/// The lanes of a mask's set bits, in order.
-inline Int set_lanes(std::uint32_t mask) {
-    return _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(kSetLanes[mask])));
-}
 
 /// out[l][i] = lane l of r[i].
 inline void store_transposed(const Real (&r)[8], float (&out)[kLanes][8]) {
@@ -139,22 +135,27 @@ inline void store_transposed(const Real (&r)[8], float (&out)[kLanes][8]) {
     }
 }
 
-/// sums[i] += int(row[i] * scale), i < 8.
-inline void add_scaled(void* sums, const float* row, float scale) {
-    const __m256i whole =
-        _mm256_cvttps_epi32(_mm256_mul_ps(_mm256_loadu_ps(row), _mm256_set1_ps(scale)));
-    const __m256i low = _mm256_cvtepi32_epi64(_mm256_castsi256_si128(whole));
-    const __m256i high = _mm256_cvtepi32_epi64(_mm256_extracti128_si256(whole, 1));
-    auto* p = static_cast<__m256i*>(sums);
-    _mm256_storeu_si256(p, _mm256_add_epi64(_mm256_loadu_si256(p), low));
-    _mm256_storeu_si256(p + 1, _mm256_add_epi64(_mm256_loadu_si256(p + 1), high));
-}
-
 /// What templates over lanes take.
 struct Lanes {
     using Real = avx2::Real;
     using Int = avx2::Int;
     using Mask = avx2::Mask;
+
+    static constexpr int kLanes = avx2::kLanes;
+    /// The lanes of a mask's set bits, in order.
+    static Int set_lanes(std::uint32_t mask) {
+        return _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(kSetLanes[mask])));
+    }
+    /// sums[i] += int(row[i] * scale), i < 8.
+    static void add_scaled(void* sums, const float* row, float scale) {
+        const __m256i whole =
+            _mm256_cvttps_epi32(_mm256_mul_ps(_mm256_loadu_ps(row), _mm256_set1_ps(scale)));
+        const __m256i low = _mm256_cvtepi32_epi64(_mm256_castsi256_si128(whole));
+        const __m256i high = _mm256_cvtepi32_epi64(_mm256_extracti128_si256(whole, 1));
+        auto* p = static_cast<__m256i*>(sums);
+        _mm256_storeu_si256(p, _mm256_add_epi64(_mm256_loadu_si256(p), low));
+        _mm256_storeu_si256(p + 1, _mm256_add_epi64(_mm256_loadu_si256(p + 1), high));
+    }
 };
 
 } // namespace heddle::avx2

@@ -106,10 +106,6 @@ inline Int pick(Int a, Int from) {
 inline Mask pick(Mask a, Int from) {
     return {_mm512_movepi32_mask(_mm512_permutexvar_epi32(from.v, _mm512_movm_epi32(a.v)))};
 }
-/// The lanes of a mask's set bits, in order; then 0.
-inline Int set_lanes(std::uint32_t mask) {
-    return _mm512_maskz_compress_epi32(_cvtu32_mask16(mask), Int::iota().v);
-}
 
 /// out[l][i] = lane l of r[i].
 inline void store_transposed(const Real (&r)[8], float (&out)[kLanes][8]) {
@@ -117,19 +113,24 @@ inline void store_transposed(const Real (&r)[8], float (&out)[kLanes][8]) {
     for (int i = 0; i < 8; ++i) _mm512_i32scatter_ps(&out[0][i], place, r[i].v, 4);
 }
 
-/// sums[i] += int(row[i] * scale), i < 8.
-inline void add_scaled(void* sums, const float* row, float scale) {
-    const __m256i whole =
-        _mm256_cvttps_epi32(_mm256_mul_ps(_mm256_loadu_ps(row), _mm256_set1_ps(scale)));
-    const __m512i all = _mm512_cvtepi32_epi64(whole);
-    _mm512_storeu_si512(sums, _mm512_add_epi64(_mm512_loadu_si512(sums), all));
-}
-
 /// What templates over lanes take.
 struct Lanes {
     using Real = avx512::Real;
     using Int = avx512::Int;
     using Mask = avx512::Mask;
+
+    static constexpr int kLanes = avx512::kLanes;
+    /// The lanes of a mask's set bits, in order; then 0.
+    static Int set_lanes(std::uint32_t mask) {
+        return _mm512_maskz_compress_epi32(_cvtu32_mask16(mask), Int::iota().v);
+    }
+    /// sums[i] += int(row[i] * scale), i < 8.
+    static void add_scaled(void* sums, const float* row, float scale) {
+        const __m256i whole =
+            _mm256_cvttps_epi32(_mm256_mul_ps(_mm256_loadu_ps(row), _mm256_set1_ps(scale)));
+        const __m512i all = _mm512_cvtepi32_epi64(whole);
+        _mm512_storeu_si512(sums, _mm512_add_epi64(_mm512_loadu_si512(sums), all));
+    }
 };
 
 } // namespace heddle::avx512

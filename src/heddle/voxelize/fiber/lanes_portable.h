@@ -160,22 +160,9 @@ inline Int pick(Int a, Int from) {
 inline Mask pick(Mask a, Int from) {
     return detail::each<Mask>([&](int l) { return a.v[from.v[l] & 7]; });
 }
-inline Int set_lanes(std::uint32_t mask) {
-    return detail::each<Int>(
-        [&](int l) { return static_cast<std::int32_t>(kSetLanes[mask] >> (8 * l) & 0xff); });
-}
 inline void store_transposed(const Real (&r)[8], float (&out)[kLanes][8]) {
     for (int l = 0; l < kLanes; ++l) {
         for (int i = 0; i < 8; ++i) out[l][i] = r[i].v[l];
-    }
-}
-inline void add_scaled(void* sums, const float* row, float scale) {
-    auto* p = static_cast<char*>(sums);
-    for (int i = 0; i < kLanes; ++i) {
-        std::int64_t sum;
-        std::memcpy(&sum, p + 8 * i, 8);
-        sum += static_cast<std::int32_t>(row[i] * scale);
-        std::memcpy(p + 8 * i, &sum, 8);
     }
 }
 
@@ -184,6 +171,21 @@ struct Lanes {
     using Real = portable::Real;
     using Int = portable::Int;
     using Mask = portable::Mask;
+
+    static constexpr int kLanes = portable::kLanes;
+    static Int set_lanes(std::uint32_t mask) {
+        return detail::each<Int>(
+            [&](int l) { return static_cast<std::int32_t>(kSetLanes[mask] >> (8 * l) & 0xff); });
+    }
+    static void add_scaled(void* sums, const float* row, float scale) {
+        auto* p = static_cast<char*>(sums);
+        for (int i = 0; i < kLanes; ++i) {
+            std::int64_t sum;
+            std::memcpy(&sum, p + 8 * i, 8);
+            sum += static_cast<std::int32_t>(row[i] * scale);
+            std::memcpy(p + 8 * i, &sum, 8);
+        }
+    }
 };
 
 } // namespace heddle::portable

@@ -1,17 +1,28 @@
-// No include guard: included once for each instruction set, HEDDLE_ISA.
-// The columns that thin chords meet, one a lane, along one axis.
+#pragma once
 
-namespace heddle::HEDDLE_ISA {
+#include <heddle/voxelize/fiber/gather_kernels.h>
+#include <heddle/voxelize/fiber/pool_lanes.h>
+
+#include <bit>
+#include <cstdint>
+
+// The columns that thin chords meet, as many at once as lanes L have (lanes_*.h), along one axis.
+
+namespace heddle {
+
+namespace lane_detail {
 
 /// Columns that may be met: the chord's lane and the column's indices along major and minor.
+template <typename L>
 struct Candidates {
+    using Real = typename L::Real;
     static constexpr int kMost = 256;
     int count = 0;
-    alignas(64) std::int32_t lane[kMost + kLanes];
-    alignas(64) float i[kMost + kLanes], j[kMost + kLanes];
+    alignas(64) std::int32_t lane[kMost + L::kLanes];
+    alignas(64) float i[kMost + L::kLanes], j[kMost + L::kLanes];
 
     void add(std::uint32_t mask, Real column_i, Real column_j) {
-        const Int order = set_lanes(mask);
+        const typename L::Int order = L::set_lanes(mask);
         order.store(lane + count);
         pick(column_i, order).store(i + count);
         pick(column_j, order).store(j + count);
@@ -24,15 +35,20 @@ struct Candidates {
 /// half as many.
 /// @param packed  cell | bit << 16
 /// @param run     first subvoxel's bit | length << 9
-template <int kDepth>
-inline void set_columns(BlockSums::VoxelTable voxels, Mask hits, Int packed, Int run) {
+template <typename L, int kDepth>
+inline void set_columns(BlockSums::VoxelTable voxels,
+                        typename L::Mask hits,
+                        typename L::Int packed,
+                        typename L::Int run) {
+    using Int = typename L::Int;
+    constexpr int kLanes = L::kLanes;
     alignas(64) std::int32_t cells[kLanes];
     alignas(64) std::int32_t runs[kLanes];
     packed = select(hits, packed, Int::iota() + Int(BlockSums::kVoxels));
     const std::uint32_t mask = hits.bits();
     const bool few = std::popcount(mask) <= kLanes / 2;
     if (few) { // lane 0 fills up: setting its bits again changes nothing
-        const Int order = set_lanes(mask);
+        const Int order = L::set_lanes(mask);
         packed = pick(packed, order);
         run = pick(run, order);
     }
@@ -53,9 +69,14 @@ inline void set_columns(BlockSums::VoxelTable voxels, Mask hits, Int packed, Int
 }
 
 /// Names a direction in voxels that chords meet beside their centrelines.
-inline void graze(const LaneBlock& b, const LaneChords& k, std::uint32_t hits, Int cell, Int lane) {
-    alignas(64) std::int32_t cells[kLanes];
-    alignas(64) std::int32_t lanes[kLanes];
+template <typename L>
+inline void graze(const LaneBlock<L>& b,
+                  const LaneChords<L>& k,
+                  std::uint32_t hits,
+                  typename L::Int cell,
+                  typename L::Int lane) {
+    alignas(64) std::int32_t cells[L::kLanes];
+    alignas(64) std::int32_t lanes[L::kLanes];
     cell.store(cells);
     lane.store(lanes);
     for (; hits != 0; hits &= hits - 1) {
@@ -65,35 +86,38 @@ inline void graze(const LaneBlock& b, const LaneChords& k, std::uint32_t hits, I
 }
 
 /// Tests the candidates and sets what they meet.
-template <int kDepth>
-inline void mark_candidates(const LaneBlock& b,
-                            const LaneChords& k,
-                            const ChordView<Lanes>& v,
-                            const Candidates& list) {
+template <typename L, int kDepth>
+inline void mark_candidates(const LaneBlock<L>& b,
+                            const LaneChords<L>& k,
+                            const ChordView<L>& v,
+                            const Candidates<L>& list) {
+    using Real = typename L::Real;
+    using Int = typename L::Int;
+    using Mask = typename L::Mask;
     const int shift = b.target.shift;
     const BlockSums::VoxelTable voxels(b.target.block);
-    for (int at = 0; at < list.count; at += kLanes) {
+    for (int at = 0; at < list.count; at += L::kLanes) {
         const Int lane = Int::load(list.lane + at);
         const Real i = Real::load(list.i + at);
         const Real j = Real::load(list.j + at);
-        ColumnDepths<Lanes> depths = column_depths<Lanes>(v.terms.picked(lane), i, j);
+        ColumnDepths<L> depths = column_depths<L>(v.terms.picked(lane), i, j);
         depths.hit = depths.hit & (Int(list.count - at) > Int::iota());
         if (depths.hit.bits() == 0) continue;
 
-        ColumnPlace<Lanes, kDepth> place(pick(k.anchor, lane), pick(v.swapped, lane), i, j, depths,
-                                         b.target.units, shift);
+        ColumnPlace<L, kDepth> place(pick(k.anchor, lane), pick(v.swapped, lane), i, j, depths,
+                                     b.target.units, shift);
         const Int bit = place.bit << 16;
         for (Mask open = depths.hit; open.bits() != 0;) {
             const Int word = place.base + (place.depth << field_shift(kDepth));
             const Mask here = open & b.holds(word);
             if (here.bits() != 0) {
-                const Int cell = LaneBlock::cell(word);
+                const Int cell = LaneBlock<L>::cell(word);
                 Int run(0);
                 if constexpr (kDepth == 2) run = place.run(shift);
-                set_columns<kDepth>(voxels, here, cell | bit, run);
+                set_columns<L, kDepth>(voxels, here, cell | bit, run);
                 const Int passed[4] = {pick(k.passed[0], lane), pick(k.passed[1], lane),
                                        pick(k.passed[2], lane), pick(k.passed[3], lane)};
-                const Mask grazed = without(here, is_passed<Lanes>(passed, word));
+                const Mask grazed = without(here, is_passed<L>(passed, word));
                 if (const std::uint32_t hits = grazed.bits(); hits != 0) {
                     graze(b, k, hits, cell, lane);
                 }
@@ -105,15 +129,18 @@ inline void mark_candidates(const LaneBlock& b,
 }
 
 /// Sets the columns along axis kDepth that the chords meet, and for z the subvoxels.
-template <int kDepth>
-inline void mark_columns(const LaneBlock& b, const LaneChords& k) {
-    const ChordView<Lanes> v = view_along<Lanes, kDepth>(k, b.target.units);
-    Candidates list;
+template <typename L, int kDepth>
+inline void mark_columns(const LaneBlock<L>& b, const LaneChords<L>& k) {
+    using Real = typename L::Real;
+    using Int = typename L::Int;
+    using Mask = typename L::Mask;
+    const ChordView<L> v = view_along<L, kDepth>(k, b.target.units);
+    Candidates<L> list;
     const auto flush = [&] {
         Int(0).store(list.lane + list.count); // the last eight are read whole
         Real(0.0f).store(list.i + list.count);
         Real(0.0f).store(list.j + list.count);
-        mark_candidates<kDepth>(b, k, v, list);
+        mark_candidates<L, kDepth>(b, k, v, list);
         list.count = 0;
     };
     // columns along minor that can lie in the strip: alike in all batches, so no branch is guessed wrong
@@ -126,7 +153,7 @@ inline void mark_columns(const LaneBlock& b, const LaneChords& k) {
         Real j = ceil(edge);
         for (int t = 0; t < tries; ++t) {
             list.add((row & (j <= end)).bits(), i, j);
-            if (list.count > Candidates::kMost - kLanes) flush();
+            if (list.count > Candidates<L>::kMost - L::kLanes) flush();
             j = j + Real(1.0f);
         }
         i = i + Real(1.0f);
@@ -134,10 +161,17 @@ inline void mark_columns(const LaneBlock& b, const LaneChords& k) {
     if (list.count > 0) flush();
 }
 
-void gather(const ChordArrays& chords, const GatherTarget& target) {
-    const LaneBlock block(target);
-    for (int at = 0; at < chords.count; at += kLanes) {
-        LaneChords k;
+} // namespace lane_detail
+
+/// gather_thin() (gather_kernels.h) over lanes L.
+template <typename L>
+inline void gather_with(const ChordArrays& chords, const GatherTarget& target) {
+    using namespace lane_detail;
+    using Real = typename L::Real;
+    using Int = typename L::Int;
+    const LaneBlock<L> block(target);
+    for (int at = 0; at < chords.count; at += L::kLanes) {
+        LaneChords<L> k;
         Int anchor[3];
         k.anchor = Int(0);
         for (int a = 0; a < 3; ++a) {
@@ -152,16 +186,16 @@ void gather(const ChordArrays& chords, const GatherTarget& target) {
         k.radius = Real::load(chords.radius + at);
         k.color = chords.color + at;
         // the arrays hold whole sixteens, the last of them anything
-        k.active = meets_block<Lanes>(k, anchor, target.units, target.size) &
+        k.active = meets_block<L>(k, anchor, target.units, target.size) &
                    (Int(chords.count - at) > Int::iota());
         if (k.active.bits() == 0) continue;
-        set_moments(k, {Real::load(chords.bend[0] + at), Real::load(chords.bend[1] + at),
-                        Real::load(chords.bend[2] + at)});
+        set_moments<L>(k, {Real::load(chords.bend[0] + at), Real::load(chords.bend[1] + at),
+                           Real::load(chords.bend[2] + at)});
         pool_lanes(block, k);
-        mark_columns<0>(block, k);
-        mark_columns<1>(block, k);
-        mark_columns<2>(block, k);
+        mark_columns<L, 0>(block, k);
+        mark_columns<L, 1>(block, k);
+        mark_columns<L, 2>(block, k);
     }
 }
 
-} // namespace heddle::HEDDLE_ISA
+} // namespace heddle

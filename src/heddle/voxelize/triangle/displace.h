@@ -194,10 +194,6 @@ private:
     std::int64_t n_ = 1;
 };
 
-} // namespace displace_detail
-
-namespace displace_detail {
-
 /// What undisplaced points of micro-triangles that touch a box lie in; lattice coordinates.
 struct ReachBox {
     Vec3d lo, hi;
@@ -215,6 +211,27 @@ struct ReachBox {
 
 HEDDLE_HD inline MicroTriangle micro(const Vertex& a, const Vertex& b, const Vertex& c) {
     return {{a.p, b.p, c.p}, {a.b, b.b, c.b}};
+}
+
+/// Computes row `r` at the columns of a range and the next ones on either side, which its
+/// micro-triangles have corners at.
+template <typename Height>
+void fill_row(const Grid& grid, std::int64_t r, Range range, const Height& height, Row& row) {
+    row.first = std::max<std::int64_t>(0, range.lo - 1);
+    row.vertices.clear();
+    if (range.empty()) return;
+    for (std::int64_t c = row.first; c <= std::min(r, range.hi + 1); ++c) {
+        row.vertices.push_back(grid.vertex(r, c, height));
+    }
+}
+
+/// Emits the micro-triangles between row `r` and the next one, at the columns of a strip.
+template <typename Emit>
+void emit_strip(const Row& above, const Row& below, std::int64_t r, Range strip, Emit& emit) {
+    for (std::int64_t c = strip.lo; c <= std::min(r, strip.hi); ++c) {
+        emit(micro(above.at(c), below.at(c), below.at(c + 1)));
+        if (c < r) emit(micro(above.at(c), below.at(c + 1), above.at(c + 1)));
+    }
 }
 
 } // namespace displace_detail
@@ -237,26 +254,16 @@ void displace_triangle(const DisplaceTriangle& t,
     using namespace displace_detail;
     const Grid grid(t, subvoxel_size);
     const ReachBox near(box, reach, subvoxel_size);
-    const auto fill = [&](Row& row, std::int64_t r, Range range) {
-        row.first = std::max<std::int64_t>(0, range.lo - 1);
-        row.vertices.clear();
-        if (range.empty()) return;
-        for (std::int64_t c = row.first; c <= std::min(r, range.hi + 1); ++c)
-            row.vertices.push_back(grid.vertex(r, c, height));
-    };
     Row& above = scratch.above;
     Row& below = scratch.below;
     Range range_above = grid.columns_in(0, near.lo, near.hi);
     Range range_below = grid.columns_in(1, near.lo, near.hi);
-    fill(above, 0, join(range_above, range_below));
+    fill_row(grid, 0, join(range_above, range_below), height, above);
     for (std::int64_t r = 0; r < grid.rows(); ++r) {
         const Range range_next = grid.columns_in(r + 2, near.lo, near.hi);
         const Range strip = join(range_above, range_below);
-        fill(below, r + 1, join(strip, range_next));
-        for (std::int64_t c = strip.lo; c <= std::min(r, strip.hi); ++c) {
-            emit(micro(above.at(c), below.at(c), below.at(c + 1)));
-            if (c < r) emit(micro(above.at(c), below.at(c + 1), above.at(c + 1)));
-        }
+        fill_row(grid, r + 1, join(strip, range_next), height, below);
+        emit_strip(above, below, r, strip, emit);
         std::swap(above, below);
         range_above = range_below;
         range_below = range_next;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <heddle/base/platform.h>
+#include <heddle/voxel/sum_fields.h>
 #include <heddle/voxelize/block/accumulator.h>
 
 #include <cstddef>
@@ -23,10 +24,8 @@ public:
     HEDDLE_INLINE void or_subvoxels(int, int word, std::uint64_t bits) {
         voxel_->sub[static_cast<std::size_t>(word)] |= bits;
     }
-    HEDDLE_INLINE void add_lobe(int, int field, std::int64_t x) {
-        (field < 6 ? lobe_->moment[static_cast<std::size_t>(field)] : lobe_->weight) += x;
-    }
-    HEDDLE_INLINE void add_map(int, int field, std::int64_t x) { map_of(*maps_, field) += x; }
+    HEDDLE_INLINE void add_lobe(int, int field, std::int64_t x) { sum_of(*lobe_, field) += x; }
+    HEDDLE_INLINE void add_map(int, int field, std::int64_t x) { map_sum_of(*maps_, field) += x; }
     [[nodiscard]] HEDDLE_INLINE bool has_maps() const { return has_maps_; }
     HEDDLE_INLINE bool forget(int) {
         if (!last_) return false;
@@ -41,16 +40,6 @@ private:
         voxel_ = &block_.voxel_at(static_cast<std::uint32_t>(cell));
         lobe_ = &block_.lobe(*voxel_, material_);
         if (has_maps_) maps_ = &block_.maps(*voxel_, *lobe_);
-    }
-    HEDDLE_INLINE static std::int64_t& map_of(MapSums& m, int field) {
-        switch (field) {
-        case 9: return m.roughness;
-        case 10: return m.metalness;
-        case 11: return m.anisotropy;
-        default: break;
-        }
-        const auto i = static_cast<std::size_t>(field);
-        return field < 6 ? m.tangent[i] : m.albedo[i - 6];
     }
 
     BlockSums& block_;

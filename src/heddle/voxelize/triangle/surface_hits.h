@@ -3,6 +3,7 @@
 #include <heddle/base/platform.h>
 #include <heddle/surface/surface_op.h>
 #include <heddle/voxel/lattice_units.h>
+#include <heddle/voxel/sum_fields.h>
 #include <heddle/voxelize/block/accumulator.h>
 #include <heddle/voxelize/triangle/triangle_scan.h>
 
@@ -18,8 +19,8 @@ namespace heddle {
 //
 //   void or_column(int cell, int axis, std::uint64_t bits)
 //   void or_subvoxels(int cell, int word, std::uint64_t bits)      see VoxelSums
-//   void add_lobe(int cell, int field, std::int64_t x)             0 to 5: moment, 6: weight
-//   void add_map(int cell, int field, std::int64_t x)              in the order of MapSums
+//   void add_lobe(int cell, int field, std::int64_t x)             see LobeField
+//   void add_map(int cell, int field, std::int64_t x)              see MapField
 //   bool has_maps()
 //   bool forget(int cell)    only where the last hit alone may count: if so empties the lobe
 //
@@ -115,9 +116,7 @@ public:
     /// the block: sums that forget count one.
     HEDDLE_INLINE void pool(int cell, const Share& share, std::int64_t count) const {
         if constexpr (kForgets) count = sums_.forget(cell) ? 1 : count;
-        for (std::size_t i = 0; i < 6; ++i)
-            sums_.add_lobe(cell, static_cast<int>(i), share.moment[i] * count);
-        sums_.add_lobe(cell, 6, share.weight * count);
+        add_share(cell, share, count);
         if (sums_.has_maps()) add_maps(cell, SurfaceSample{}, share.weight * count);
     }
 
@@ -125,25 +124,33 @@ public:
     /// @param weight  units^2 x kWeightScale
     HEDDLE_INLINE void pool(int cell, const SurfaceSample& s, float weight) const {
         if constexpr (kForgets) sums_.forget(cell);
-        const std::array<std::int64_t, 6> moment = weighted_moment(s.normal, weight);
-        const std::int64_t whole = round_weight(weight);
-        for (std::size_t i = 0; i < 6; ++i) sums_.add_lobe(cell, static_cast<int>(i), moment[i]);
-        sums_.add_lobe(cell, 6, whole);
-        if (sums_.has_maps()) add_maps(cell, s, whole);
+        const Share share{weighted_moment(s.normal, weight), round_weight(weight)};
+        add_share(cell, share, 1);
+        if (sums_.has_maps()) add_maps(cell, s, share.weight);
     }
 
 private:
+    HEDDLE_INLINE void add_share(int cell, const Share& share, std::int64_t count) const {
+        for (int i = 0; i < 6; ++i) {
+            sums_.add_lobe(cell, LobeField::Moment + i,
+                           share.moment[static_cast<std::size_t>(i)] * count);
+        }
+        sums_.add_lobe(cell, LobeField::Weight, share.weight * count);
+    }
+
     HEDDLE_INLINE void add_maps(int cell, const SurfaceSample& s, std::int64_t weight) const {
         // by strength: where the map says isotropic, its direction says nothing
         const std::array<std::int64_t, 6> tangent =
             weighted_moment(s.tangent, static_cast<float>(weight) * s.anisotropy);
-        for (std::size_t i = 0; i < 6; ++i) sums_.add_map(cell, static_cast<int>(i), tangent[i]);
-        sums_.add_map(cell, 6, weight * map_byte(s.albedo.x));
-        sums_.add_map(cell, 7, weight * map_byte(s.albedo.y));
-        sums_.add_map(cell, 8, weight * map_byte(s.albedo.z));
-        sums_.add_map(cell, 9, weight * map_byte(s.roughness));
-        sums_.add_map(cell, 10, weight * map_byte(s.metalness));
-        sums_.add_map(cell, 11, weight * map_byte(s.anisotropy));
+        for (int i = 0; i < 6; ++i) {
+            sums_.add_map(cell, MapField::Tangent + i, tangent[static_cast<std::size_t>(i)]);
+        }
+        for (int i = 0; i < 3; ++i) {
+            sums_.add_map(cell, MapField::Albedo + i, weight * map_byte(s.albedo[i]));
+        }
+        sums_.add_map(cell, MapField::Roughness, weight * map_byte(s.roughness));
+        sums_.add_map(cell, MapField::Metalness, weight * map_byte(s.metalness));
+        sums_.add_map(cell, MapField::Anisotropy, weight * map_byte(s.anisotropy));
     }
 
     Sums& sums_;

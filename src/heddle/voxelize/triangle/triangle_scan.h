@@ -93,39 +93,6 @@ greatest(std::int64_t a, std::int64_t b, std::int64_t c) {
     return t;
 }
 
-/// Subvoxels that the snapped triangle's bounds touch: no hit lies outside.
-[[nodiscard]] HEDDLE_HD inline SubvoxelBox subvoxel_bounds(const ScanTriangle& t) {
-    SubvoxelBox b;
-    for (int a = 0; a < 3; ++a) {
-        const std::int64_t top = scan_detail::greatest(t.p[0][a], t.p[1][a], t.p[2][a]);
-        b.lo[a] = t.anchor[a];
-        b.hi[a] = t.anchor[a] + static_cast<std::int32_t>(top >> kScanFractionBits) + 1;
-    }
-    return b;
-}
-
-/// False only if the triangle's bounds or its plane miss the box by more than 2 subvoxels: for
-/// binning large triangles to blocks.
-[[nodiscard]] HEDDLE_HD inline bool may_touch(const ScanTriangle& t, const SubvoxelBox& box) {
-    const SubvoxelBox b = subvoxel_bounds(t);
-    Vec3d center, half, p[3];
-    for (int a = 0; a < 3; ++a) {
-        if (b.hi[a] <= box.lo[a] || b.lo[a] >= box.hi[a]) return false;
-        const double lo = static_cast<double>(box.lo[a]) - static_cast<double>(t.anchor[a]);
-        const double hi = static_cast<double>(box.hi[a]) - static_cast<double>(t.anchor[a]);
-        center[a] = 0.5 * (lo + hi);
-        half[a] = 0.5 * (hi - lo) + 2.0; // a distance of 2 is beyond every rounding below
-        for (int v = 0; v < 3; ++v)
-            p[v][a] = static_cast<double>(t.p[v][a]) / static_cast<double>(kScanOne);
-    }
-    const Vec3d d1 = p[1] - p[0], d2 = p[2] - p[0], c = center - p[0];
-    const Vec3d n = cross(d1, d2);
-    const auto size = [](Vec3d a) { return std::abs(a.x) + std::abs(a.y) + std::abs(a.z); };
-    const double rounding = 1e-15 * size(d1) * size(d2) * size(c); // matters for huge slivers
-    const double reach = std::abs(n.x) * half.x + std::abs(n.y) * half.y + std::abs(n.z) * half.z;
-    return std::abs(dot(n, c)) <= reach + rounding;
-}
-
 /// Area, in scene units^2, that a hit along `axis` stands for: |n_a| x a column's cross-section.
 ///
 /// Seen along axis a the triangle has the area |n_a| A, so it is met by |n_a| A / (column section)

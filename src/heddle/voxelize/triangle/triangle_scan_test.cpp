@@ -182,7 +182,6 @@ TEST(TriangleScan, HugeTrianglesAreExactInABoxOfTheirInside) {
             box.lo[a] = static_cast<std::int32_t>(inside[a]) - 8;
             box.hi[a] = box.lo[a] + 16;
         }
-        EXPECT_TRUE(may_touch(prepare(t), box));
         const Vec3d normal = scene_normal(t[0], t[1], t[2], {1, 1, 1});
         for (const Hit& h : hits_of(t, box)) {
             const auto axis = h[0];
@@ -209,7 +208,6 @@ TEST(TriangleScan, BoxesThatTileSpaceShareOutTheSameHits) {
             SubvoxelBox box = kEverywhere;
             for (int a = 0; a < 3; ++a) ((part >> a) & 1 ? box.lo : box.hi)[a] = cut[a];
             const std::vector<Hit> some = hits_of(t, box);
-            EXPECT_TRUE(some.empty() || may_touch(prepare(t), box));
             parts.insert(parts.end(), some.begin(), some.end());
         }
         std::sort(whole.begin(), whole.end());

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <heddle/window/window.h>
+
+#include <cstdint>
+#include <functional>
+
+namespace heddle::window {
+
+/// run_window() that calls `shown(n)` after frame n, counted from 1 over all contexts. What it throws
+/// is taken for what the frame threw.
+[[nodiscard]] WindowCounts run_watched_window(const viewer::Subject& subject,
+                                              const viewer::Settings& settings,
+                                              const WindowOptions& options,
+                                              const Progress& progress,
+                                              const std::function<void(std::int64_t)>& shown);
+
+} // namespace heddle::window

@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# lod.sh HEDDLE: levels built again, and level 0 alone.
+. "$(dirname "$0")/functions.sh"
+
+make_knit
+make_yarn
+make_one
+
+# what neighbours share: level 0 alone has the bytes of level 0 among all
+for backend in sample raster; do
+    works voxelize knit.bcc --yarn slice.toml --voxels 64 --correlation --backend $backend \
+        -o shared.vdb
+    works voxelize knit.bcc --yarn slice.toml --voxels 64 --correlation --backend $backend \
+        --levels 0 -o shared0.vdb
+    works lod shared.vdb --levels 0 -o cut.vdb
+    works info shared0.vdb --json && hash0=$(json content_hash)
+    works info cut.vdb --json && [ "$(json content_hash)" = "$hash0" ] ||
+        wrong "--levels 0 has another correlation, $backend"
+    works voxelize knit.bcc --yarn slice.toml --voxels 64 --backend $backend --levels 0 \
+        -o shared0.vdb
+    works info shared0.vdb --json && [ "$(json content_hash)" != "$hash0" ] ||
+        wrong "no correlation is stored, $backend"
+done
+# levels again: from masks bit for bit, without them not if --exact
+works voxelize knit.bcc --yarn cotton --voxels 64 --keep-masks --correlation -o masks.vdb
+works info masks.vdb --json
+masks=$(json content_hash)
+works lod masks.vdb --exact -o again.vdb
+works info again.vdb --json
+[ "$(json content_hash)" = "$masks" ] || wrong "levels built again from masks differ"
+works lod one.vdb --lod single --lobes 1 -o single.vdb
+works info single.vdb --json
+[ "$(json lod)" = single ] || wrong "lod single says $(json lod)"
+echo old >kept.vdb
+fails 3 "one.vdb: holds no columns and sums" lod one.vdb --exact -o kept.vdb
+fails 3 "kept.vdb: " lod kept.vdb -o new.vdb
+fails 2 "did you mean 'moments'" lod one.vdb --lod moment -o kept.vdb
+grep -q '^old$' kept.vdb || wrong "a refused command changed its output"
+[ ! -e new.vdb ] || wrong "a refused command left an output"
+
+finish
