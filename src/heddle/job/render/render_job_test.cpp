@@ -33,7 +33,9 @@ protected:
 };
 
 TEST_F(PictureJob, ThePreviewInAFileIsTheOneInMemory) {
-    const PreviewOptions options{.width = 32, .height = 24};
+    PreviewOptions options;
+    options.width = 32;
+    options.height = 24;
     const PreviewImage image = preview_volume(path_, 1, options, silent_);
     const PreviewReport report =
         preview_volume_to_file(path_, folder_.file("a.png"), 1, options, silent_);

@@ -13,10 +13,10 @@ namespace heddle::job {
 
 /// What a view or a window shows, loaded.
 struct LoadedView {
-    viewer::ViewedObject subject;
-    std::string volume; ///< path of the .vdb that is shown; empty: none
-    std::vector<std::string> notes;
-    StageTimes stages;
+    viewer::ViewedObject subject{};
+    std::string volume{}; ///< path of the .vdb that is shown; empty: none
+    std::vector<std::string> notes{};
+    StageTimes stages{};
 };
 
 /// Pictures without a window: once around the object.
@@ -24,15 +24,15 @@ struct FramesOptions {
     std::int64_t frames = 1;
     /// path of the .vdb that a scene file beside the pictures shows as the first one does; none:
     /// no such file
-    std::optional<std::string> scene;
+    std::optional<std::string> scene{};
 };
 
 struct FramesReport {
-    std::string driver;
+    std::string driver{};
     std::int64_t slices = 0;
-    std::string blend;          ///< how slices were put over each other, in words
-    viewer::SliceTimes a_frame; ///< means, seconds
-    StageTimes stages;
+    std::string blend{};          ///< how slices were put over each other, in words
+    viewer::SliceTimes a_frame{}; ///< means, seconds
+    StageTimes stages{};
 };
 
 /// Reads what is looked at. Yarns are made slices.
