@@ -15,7 +15,7 @@ namespace {
 
 /// What a key's value may be.
 /// @throws UsageError  no such key
-Values values_of(const std::string& key) {
+ValueRule values_of(const std::string& key) {
     constexpr double kMost = std::numeric_limits<float>::max();
     const std::vector<std::string>& keys = job::material_keys();
     if (std::find(keys.begin(), keys.end(), key) == keys.end()) {

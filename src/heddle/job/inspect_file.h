@@ -5,7 +5,7 @@
 #include <heddle/io/vdb/content_hash.h>
 #include <heddle/io/vol/vol_layout.h>
 #include <heddle/job/geometry_input.h>
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 #include <heddle/voxelize/plan.h>
 
 #include <cstdint>
@@ -66,7 +66,7 @@ struct GeometryInfo {
 
 /// What a .vdb of Heddle's holds.
 struct VolumeInfo {
-    std::vector<VoxelGridInfo> levels{}; ///< finest first
+    std::vector<VoxelLevelInfo> levels{}; ///< finest first
     std::vector<GridSummary> grids{};
     std::string content_hash{};
 };

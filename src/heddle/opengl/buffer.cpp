@@ -9,8 +9,8 @@
 namespace heddle::opengl {
 namespace {
 
-/// A block without bytes cannot be bound.
-constexpr std::size_t kLeastBytes = 16;
+/// An empty storage block cannot be bound.
+constexpr std::size_t kMinBytes = 16;
 
 std::uint32_t make(const char* name, std::size_t bytes, const void* from) {
     GLuint id = 0;
@@ -20,13 +20,13 @@ std::uint32_t make(const char* name, std::size_t bytes, const void* from) {
     glDeleteBuffers(1, &id);
     throw Error(ErrorCode::OutOfMemory,
                 str("opengl: the driver has no ", (bytes >> 20) + 1, " MiB for ", name),
-                "give a smaller --memory, or use larger voxels");
+                "lower --memory, or use larger voxels");
 }
 
 } // namespace
 
 Buffer::Buffer(const char* name, std::size_t bytes)
-    : id_(make(name, std::max(bytes, kLeastBytes), nullptr)), bytes_(bytes) {}
+    : id_(make(name, std::max(bytes, kMinBytes), nullptr)), bytes_(bytes) {}
 
 Buffer::Buffer(const char* name, std::span<const std::byte> bytes) : Buffer(name, bytes.size()) {
     write(bytes);

@@ -18,7 +18,6 @@ namespace {
 
 using namespace heddle::raster::test;
 using namespace heddle::slice::test;
-using heddle::test::for_each_voxel;
 
 VoxelizeOptions options_of(double voxel_size) {
     VoxelizeOptions options;
@@ -27,9 +26,9 @@ VoxelizeOptions options_of(double voxel_size) {
     return options;
 }
 
-std::unique_ptr<VoxelSource> draw(const Geometry& geometry,
-                                  const VoxelizeOptions& options,
-                                  Composition composition = Composition::Accumulate) {
+std::unique_ptr<VoxelLevel> draw(const Geometry& geometry,
+                                 const VoxelizeOptions& options,
+                                 Composition composition = Composition::Accumulate) {
     Progress silent;
     return voxelize_slices(geometry, options, {.composition = composition},
                            plan_voxelize(geometry, options), silent);
@@ -159,8 +158,8 @@ TEST(VoxelizeSlices, TwoMaterialsKeepTheirLobes) {
     other.yarn = 0;
     yarns.curves.push_back(other);
     int both = 0;
-    const std::unique_ptr<VoxelSource> drawn = draw(yarns, options_of(0.03));
-    for_each_voxel(*drawn, [&](const FoundVoxel& v) { both += v.lobes.size() == 2 ? 1 : 0; });
+    const std::unique_ptr<VoxelLevel> drawn = draw(yarns, options_of(0.03));
+    for_each_voxel(*drawn, [&](const BlockVoxel& v) { both += v.lobes().size() == 2 ? 1 : 0; });
     EXPECT_GT(both, 10);
     expect_close(difference_of(yarns, options_of(0.03)), "crossing");
 }
@@ -175,9 +174,9 @@ TEST(Composition, DensitiesStandInTheOrderOfTheirPolicies) {
     const auto mean = [&](Composition composition) {
         double sum = 0.0;
         double count = 0.0;
-        for_each_voxel(*draw(yarn, options, composition), [&](const FoundVoxel& v) {
-            EXPECT_EQ(v.coverage.x, v.coverage.y);
-            sum += heddle::test::covered(v.coverage, 0);
+        for_each_voxel(*draw(yarn, options, composition), [&](const BlockVoxel& v) {
+            EXPECT_EQ(v.coverage().x, v.coverage().y);
+            sum += heddle::test::covered(v.coverage(), 0);
             count += 1.0;
         });
         return sum / count;
@@ -225,7 +224,7 @@ TEST(VoxelizeSlices, WhatCannotBeDrawnIsOneLine) {
 TEST(VoxelizeSlices, AYarnWithoutLengthBesideOthersLeavesNothing) {
     Geometry yarns = straight_yarn({0.9f, 0.3f, 0.2f}, slice_yarn(0.06f));
     const VoxelizeOptions options = options_of(0.03);
-    const std::unique_ptr<VoxelSource> alone = draw(yarns, options);
+    const std::unique_ptr<VoxelLevel> alone = draw(yarns, options);
     const Vec3f p = yarns.curves[0].points[1];
     heddle::test::add_curve(yarns.curves[0], {p, p, p, p});
     const Difference d = compare(*alone, *draw(yarns, options));

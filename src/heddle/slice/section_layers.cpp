@@ -15,20 +15,20 @@
 namespace heddle::slice {
 namespace {
 
-/// A fiber's radius has at least this many texels: interpolated distances are then right to 1/300.
+/// The least texels of a fiber's radius; interpolated distances then err by at most 1/300.
 constexpr float kTexelsOfRadius = 6.0f;
-constexpr float kLeastSize = 64.0f;
-constexpr float kMostSize = 1024.0f;
+constexpr float kMinSize = 64.0f;
+constexpr float kMaxSize = 1024.0f;
 
-/// Where the fibers of a section lie, model units.
+/// The positions of the fibers of a section, model units.
 struct Discs {
     std::vector<float> x, y;
     std::vector<float> across_x, across_y; ///< unit direction in which twist tilts the fiber
-    std::vector<float> cosine; ///< of the tilt: the section of a round fiber is longer by it
+    std::vector<float> cosine; ///< of the tilt: the section of a fiber is longer by 1 / cosine
     std::vector<std::uint32_t> color;
     float radius = 0.0f;
     float extent = 0.0f;
-    const Texture* image = nullptr; ///< of a slice
+    const Texture* image = nullptr; ///< image of a slice
     float half = 0.0f;              ///< the image fills [-half, half]^2
 };
 
@@ -108,17 +108,17 @@ SectionLayer draw(const Discs& discs, std::int32_t size) {
     return layer;
 }
 
-/// What all layers are drawn from.
+/// The input of all layers.
 struct Sections {
     std::vector<Discs> discs;
-    std::vector<std::uint32_t> first; ///< as SectionLayers has it
+    std::vector<std::uint32_t> first; ///< as in SectionLayers
     std::int32_t size = 0;
 };
 
 Sections sections_of(const Geometry& geometry, std::uint64_t seed) {
     Sections out;
     out.first.push_back(0);
-    float size = kLeastSize;
+    float size = kMinSize;
     for (std::size_t s = 0; s < geometry.curves.size(); ++s) {
         const CurveSet& set = geometry.curves[s];
         const YarnType* yarn = geometry.yarn_of(set);
@@ -128,8 +128,8 @@ Sections sections_of(const Geometry& geometry, std::uint64_t seed) {
                         "make a slice of it (heddle slice)");
         }
         const bool drawn = yarn != nullptr && yarn->model == YarnModel::Slice;
-        const auto curves = static_cast<std::uint32_t>(
-            std::clamp<std::size_t>(set.curve_count(), 1, kMostVariants));
+        const auto curves =
+            static_cast<std::uint32_t>(std::clamp<std::size_t>(set.curve_count(), 1, kMaxVariants));
         const std::uint32_t variants = drawn ? curves : 1;
         for (std::uint32_t v = 0; v < variants; ++v) {
             out.discs.push_back(discs_of(yarn, seed + s, v));
@@ -138,7 +138,7 @@ Sections sections_of(const Geometry& geometry, std::uint64_t seed) {
         }
         out.first.push_back(static_cast<std::uint32_t>(out.discs.size()));
     }
-    out.size = static_cast<std::int32_t>(std::ceil(std::min(size, kMostSize) / 16.0f)) * 16;
+    out.size = static_cast<std::int32_t>(std::ceil(std::min(size, kMaxSize) / 16.0f)) * 16;
     return out;
 }
 

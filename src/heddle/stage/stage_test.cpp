@@ -104,8 +104,8 @@ TEST(Stage, AForcedLevelIsReadAndNoneFiner) {
 TEST(Stage, AVolumeWithoutVoxelsIsRefused) {
     const TempFolder folder;
     Scene scene = slab_scene(folder);
-    VoxelGrid none;
-    none.about.materials.resize(1);
+    MemoryLevel none;
+    none.info().materials.resize(1);
     Progress progress;
     write_vdb(none, folder.file("slab.vdb"), progress);
     const auto error = error_of([&] { Stage(scene, {}, progress); });

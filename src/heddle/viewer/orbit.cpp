@@ -8,7 +8,7 @@
 namespace heddle::viewer {
 namespace {
 
-/// `v` turned about the unit vector `axis`.
+/// `v` rotated about the unit vector `axis`.
 Vec3d turn_about(Vec3d v, Vec3d axis, double angle) {
     const Vec3d along = axis * dot(axis, v);
     const Vec3d across = v - along;
@@ -17,7 +17,7 @@ Vec3d turn_about(Vec3d v, Vec3d axis, double angle) {
 
 } // namespace
 
-PictureAxes::PictureAxes(Vec3d from, Vec3d upward) {
+CameraAxes::CameraAxes(Vec3d from, Vec3d upward) {
     away = normalize(from * -1.0);
     const Vec3d aside = cross(away, upward);
     right = length(aside) > 1e-9 * length(upward) ? normalize(aside)
@@ -31,18 +31,18 @@ void Orbit::frame(const Ball& ball, double aspect) {
 }
 
 void Orbit::turn(double right, double upward) {
-    constexpr double kSteepest = 1.5707; // just short of straight above: `up` still tells a side
+    constexpr double kSteepest = 1.5707; // just below the zenith: `up` still defines a side
     const Vec3d pole = normalize(up);
     from = turn_about(from, pole, -right);
     const Vec3d unit = normalize(from);
     const double now = std::asin(std::clamp(dot(unit, pole), -1.0, 1.0));
     const double then = std::clamp(now + upward, -kSteepest, kSteepest);
-    const PictureAxes axes(from, up);
+    const CameraAxes axes(from, up);
     from = turn_about(from, axes.right, now - then);
 }
 
 void Orbit::pan(double right, double upward) {
-    const PictureAxes axes(from, up);
+    const CameraAxes axes(from, up);
     target = target - axes.right * (right * height) - axes.up * (upward * height);
 }
 
@@ -50,18 +50,18 @@ void Orbit::zoom(double factor) {
     height /= factor;
 }
 
-CameraView Orbit::camera() const {
+CameraParameters Orbit::camera() const {
     if (!(length(from) > 0.0) || !(length(up) > 0.0)) {
         throw Error(ErrorCode::InvalidArgument, "view: a direction has no length",
-                    "give one of any length but 0");
+                    "give one of nonzero length");
     }
     if (!(height > 0.0) || !(view_angle >= 0.0 && view_angle < 3.1)) {
         throw Error(ErrorCode::InvalidArgument,
                     str("view: a picture of height ", height, " and ", view_angle, " radians"),
                     "use a zoom above 0 and an angle from 0 to 177 degrees");
     }
-    CameraView out;
-    const PictureAxes axes(from, up);
+    CameraParameters out;
+    const CameraAxes axes(from, up);
     out.orthographic = view_angle == 0.0;
     out.target = target;
     out.up = axes.up;

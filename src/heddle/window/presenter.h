@@ -1,13 +1,13 @@
 #pragma once
 
 #include <heddle/opengl/shader.h>
-#include <heddle/viewer/session/refiner.h>
+#include <heddle/viewer/session/progressive_renderer.h>
 
 #include <cstdint>
 
 namespace heddle::window {
 
-/// Shows a picture in the window's own frame, over white and as sRGB. Needs a current context.
+/// Shows a picture in the window's framebuffer, over white and as sRGB. Needs a current context.
 class Presenter {
 public:
     Presenter();
@@ -15,7 +15,8 @@ public:
     Presenter(const Presenter&) = delete;
     Presenter& operator=(const Presenter&) = delete;
 
-    void show(const viewer::Refiner& picture, std::int32_t width, std::int32_t height) const;
+    void
+    show(const viewer::ProgressiveRenderer& picture, std::int32_t width, std::int32_t height) const;
 
 private:
     std::uint32_t vertices_ = 0;

@@ -17,14 +17,14 @@ namespace heddle {
 namespace {
 
 /// Two voxels of one leaf: a fiber along z at (1, 2, 3), a disc that faces x at (6, 2, 3).
-VoxelGrid two_voxels(bool colors) {
-    VoxelGrid grid;
-    grid.about.lattice = {{0.5, 0.5, 0.25}, 8};
-    grid.about.materials.resize(2);
-    grid.about.materials[0].kind = MaterialKind::Fiber;
-    grid.about.materials[1].albedo = colors ? Vec3f{0.2f, 0.4f, 0.6f} : Vec3f{0.8f, 0.8f, 0.8f};
-    grid.about.voxel_count = 2;
-    grid.about.lobe_count = 2;
+MemoryLevel two_voxels(bool colors) {
+    MemoryLevel grid;
+    grid.info().lattice = {{0.5, 0.5, 0.25}, 8};
+    grid.info().materials.resize(2);
+    grid.info().materials[0].kind = MaterialKind::Fiber;
+    grid.info().materials[1].albedo = colors ? Vec3f{0.2f, 0.4f, 0.6f} : Vec3f{0.8f, 0.8f, 0.8f};
+    grid.info().voxel_count = 2;
+    grid.info().lobe_count = 2;
     VoxelBlock& block = grid.blocks.emplace_back();
     VoxelLeaf& leaf = block.leaves.emplace_back();
     leaf.active[1] = std::uint64_t{1} << (2 * 8 + 3);
@@ -36,9 +36,9 @@ VoxelGrid two_voxels(bool colors) {
     return grid;
 }
 
-std::vector<Vec3f> albedo_of(const VoxelGrid& grid) {
+std::vector<Vec3f> albedo_of(const MemoryLevel& grid) {
     std::vector<Vec3f> out;
-    for (const Material& m : grid.about.materials) out.push_back(m.albedo);
+    for (const Material& m : grid.info().materials) out.push_back(m.albedo);
     return out;
 }
 
@@ -74,7 +74,7 @@ protected:
                       .string();
     }
     void TearDown() override { std::filesystem::remove_all(folder_); }
-    MitsubaBox write(const VoxelGrid& grid, double pad) {
+    MitsubaBox write(const MemoryLevel& grid, double pad) {
         const FlakeField field(grid, albedo_of(grid));
         const MitsubaBox box = plan_mitsuba(field, pad);
         Progress progress;
@@ -140,7 +140,7 @@ TEST_F(WriteMitsuba, AlbedoIsWrittenWhereItVaries) {
 }
 
 TEST_F(WriteMitsuba, ABoxBeyondMemoryIsRefusedBeforeAnythingIsWritten) {
-    const VoxelGrid grid = two_voxels(false);
+    const MemoryLevel grid = two_voxels(false);
     const FlakeField field(grid, albedo_of(grid));
     Progress progress;
     EXPECT_THROW(write_mitsuba(field, plan_mitsuba(field, 1e6), folder_, progress), Error);

@@ -3,7 +3,7 @@
 #include <heddle/base/progress.h>
 #include <heddle/io/vol/write_mitsuba.h>
 #include <heddle/io/vol/write_mitsuba06.h>
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 
 #include <cstdint>
 #include <optional>
@@ -41,7 +41,7 @@ struct ExportReport {
 /// Writes voxels into a folder, which is made.
 /// @throws OptionError  options that do not go together or are out of range
 /// @throws Error        InvalidArgument: no voxels; OutOfMemory, CannotWrite, Cancelled
-ExportReport export_volume(const VoxelSource& voxels,
+ExportReport export_volume(const VoxelLevel& voxels,
                            const std::string& folder,
                            const ExportOptions& options,
                            Progress& progress);

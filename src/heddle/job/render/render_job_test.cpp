@@ -79,7 +79,7 @@ TEST_F(PictureJob, ARenderIsRefusedOrCancelled) {
 }
 
 TEST_F(PictureJob, AVolumeInMemoryIsExportedAsOneOfAFile) {
-    const std::unique_ptr<VoxelGrid> grid = read_vdb(path_, 0);
+    const std::unique_ptr<MemoryLevel> grid = read_vdb(path_, 0);
     for (const ExportFormat to : {ExportFormat::Mitsuba3, ExportFormat::Mitsuba06}) {
         const ExportOptions options{.to = to};
         const ExportReport report = export_volume(path_, folder_.file("file"), options, silent_);

@@ -13,7 +13,7 @@ namespace heddle::job {
 
 /// What a view or a window shows, loaded.
 struct LoadedView {
-    viewer::Subject subject{};
+    viewer::ViewedObject subject{};
     std::string volume{}; ///< path of the .vdb that is shown; empty: none
     std::vector<std::string> notes{};
     StageTimes stages{};
@@ -43,14 +43,14 @@ load_view(const ViewInput& input, const ViewOptions& options, Progress& progress
 
 /// Draws by OpenGL, in a context of its own.
 /// @throws Error  Device; as viewer::Session; Cancelled
-[[nodiscard]] std::vector<viewer::ViewImage> draw_frames(const viewer::Subject& subject,
-                                                         const ViewOptions& options,
-                                                         std::int64_t frames,
-                                                         Progress& progress);
+[[nodiscard]] std::vector<viewer::RgbImage> draw_frames(const viewer::ViewedObject& subject,
+                                                        const ViewOptions& options,
+                                                        std::int64_t frames,
+                                                        Progress& progress);
 
 /// The same into the subject's folder, which is made: frame_0000.png on, and NAME_view.toml.
 /// @throws Error  also CannotWrite
-FramesReport draw_frames_to_files(const viewer::Subject& subject,
+FramesReport draw_frames_to_files(const viewer::ViewedObject& subject,
                                   const ViewOptions& options,
                                   const FramesOptions& frames,
                                   Progress& progress);

@@ -57,6 +57,6 @@ void check_view(const ViewInput& input, const ViewOptions& options, bool scene);
 /// What a view begins with; its orbit is about the unit ball (Settings::framed).
 /// @throws OptionError  a color that there is not
 [[nodiscard]] viewer::Settings view_settings(const ViewOptions& options,
-                                             const viewer::Subject& subject);
+                                             const viewer::ViewedObject& subject);
 
 } // namespace heddle::job

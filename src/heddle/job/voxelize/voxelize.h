@@ -67,7 +67,7 @@ private:
     [[nodiscard]] VoxelizePlan
     plan_of(const Run& run, const VoxelizeOptions& options, LevelBuilder* builder, Progress& clock);
     [[nodiscard]] std::unique_ptr<LevelBuilder> make_builder() const;
-    [[nodiscard]] std::unique_ptr<VoxelSource> make_voxels(Run& run);
+    [[nodiscard]] std::unique_ptr<VoxelLevel> make_voxels(Run& run);
     [[nodiscard]] VoxelLevels make_levels(Run& run);
 
     VoxelizeJobOptions options_;

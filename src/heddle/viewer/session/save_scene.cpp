@@ -13,7 +13,7 @@ std::string list(Vec3d v) {
     return out.str();
 }
 
-/// As a basic string of TOML.
+/// The text as a basic string of TOML.
 std::string quoted(const std::string& text) {
     std::string out = "\"";
     for (const char c : text) {
@@ -26,7 +26,7 @@ std::string quoted(const std::string& text) {
 } // namespace
 
 std::string scene_text(const std::string& volume,
-                       const CameraView& camera,
+                       const CameraParameters& camera,
                        Vec3d light,
                        std::int32_t width,
                        std::int32_t height) {

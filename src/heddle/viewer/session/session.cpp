@@ -5,7 +5,7 @@
 #include <heddle/io/image/image.h>
 #include <heddle/io/vdb/write_vdb.h>
 #include <heddle/viewer/session/save_scene.h>
-#include <heddle/viewer/session/voxelize_seen.h>
+#include <heddle/viewer/session/voxelize_visible.h>
 #include <heddle/viewer/volume/voxel_tables.h>
 
 #include <algorithm>
@@ -15,9 +15,9 @@
 namespace heddle::viewer {
 namespace {
 
-constexpr std::int32_t kCoarseMap = 256; ///< shadow map while the view moves, pixels
+constexpr std::int32_t kCoarseMap = 256; ///< size of the shadow map while the view moves, pixels
 
-/// What of the settings a picture of slices or voxels shows.
+/// Whether two settings give the same picture of slices or voxels.
 bool same_picture(const Settings& a, const Settings& b) {
     return a.orbit == b.orbit && a.show == b.show && a.slices == b.slices && a.volume == b.volume &&
            a.yarns == b.yarns;
@@ -25,7 +25,7 @@ bool same_picture(const Settings& a, const Settings& b) {
 
 } // namespace
 
-Bounds bounds_of(const Subject& subject) {
+Bounds bounds_of(const ViewedObject& subject) {
     Bounds out;
     if (subject.geometry) {
         for (const CurveSet& set : subject.geometry->curves) {
@@ -33,7 +33,7 @@ Bounds bounds_of(const Subject& subject) {
         }
     }
     if (!subject.levels || !out.empty()) return out;
-    const VoxelSource& finest = *subject.levels->front();
+    const VoxelLevel& finest = *subject.levels->front();
     const Vec3d size = finest.info().lattice.voxel_size;
     VoxelBlock scratch;
     for (std::size_t b = 0; b < finest.block_count(); ++b) {
@@ -48,7 +48,7 @@ Bounds bounds_of(const Subject& subject) {
 }
 
 Session::Session(const opengl::Context& context,
-                 Subject subject,
+                 ViewedObject subject,
                  const Settings& settings,
                  std::int32_t width,
                  std::int32_t height)
@@ -56,9 +56,9 @@ Session::Session(const opengl::Context& context,
     if (subject_.geometry) {
         kinds_ = names_of_kinds(*subject_.geometry);
         settings_.yarns.resize(kinds_.size());
-        slices_ = std::make_unique<SliceView>(
+        slices_ = std::make_unique<SliceRenderer>(
             context, edited(*subject_.geometry, settings_.yarns),
-            SliceViewOptions{.memory_bytes = subject_.memory_bytes, .seed = subject_.seed});
+            SliceRendererOptions{.memory_bytes = subject_.memory_bytes, .seed = subject_.seed});
     }
     if (subject_.levels) show_voxels();
     if (!slices_) settings_.show = Show::Voxels;
@@ -69,7 +69,7 @@ Session::Session(const opengl::Context& context,
 
 Session::~Session() = default;
 
-/// Runs what may fail for its input; then its one line is the message.
+/// Runs an action that may fail because of its input; its one-line text then becomes the message.
 /// @throws Error  Device
 template <typename Run>
 bool Session::attempt(Run&& run) {
@@ -92,7 +92,7 @@ void Session::resize(std::int32_t width, std::int32_t height) {
     if (picture_ && picture_->fine().width() == width && picture_->fine().height() == height) {
         return;
     }
-    picture_ = std::make_unique<Refiner>(width, height);
+    picture_ = std::make_unique<ProgressiveRenderer>(width, height);
 }
 
 void Session::set(const Settings& settings) {
@@ -112,8 +112,8 @@ void Session::set(const Settings& settings) {
     settings_ = next;
 }
 
-void Session::draw(const ViewTarget& target, bool coarse, SliceTimes* times) {
-    const CameraView camera = settings_.orbit.camera();
+void Session::draw(const RenderTarget& target, bool coarse, SliceTimes* times) {
+    const CameraParameters camera = settings_.orbit.camera();
     VoxelLook volume = settings_.volume;
     if (volume.light) volume.light = settings_.slices.light;
     if (settings_.show == Show::Voxels) {
@@ -138,15 +138,15 @@ bool Session::work(double seconds) {
     const bool fine = attempt([&] {
         if (!picture_->done()) fit_slices();
         drawn = picture_->work(
-            seconds, [&](const ViewTarget& target, bool coarse) { draw(target, coarse); });
+            seconds, [&](const RenderTarget& target, bool coarse) { draw(target, coarse); });
     });
     write_picture();
     return drawn || !fine;
 }
 
-ViewImage Session::draw_now(SliceTimes* times) {
+RgbImage Session::draw_now(SliceTimes* times) {
     fit_slices();
-    const ViewTarget& target = picture_->fine();
+    const RenderTarget& target = picture_->fine();
     target.clear();
     draw(target, false, times);
     picture_->restart();
@@ -155,7 +155,7 @@ ViewImage Session::draw_now(SliceTimes* times) {
 
 void Session::start(std::function<JobResult(Progress&)> run) {
     if (job_) {
-        message_ = "one thing at a time: wait, or stop what runs";
+        message_ = "another job is running: wait for it, or stop it";
         return;
     }
     message_.clear();
@@ -164,7 +164,7 @@ void Session::start(std::function<JobResult(Progress&)> run) {
 
 void Session::voxelize() {
     if (!subject_.geometry) {
-        message_ = "a volume is there already: open curves to voxelize them";
+        message_ = "a volume is already open: open curves to voxelize them";
         return;
     }
     Geometry geometry = edited(*subject_.geometry, settings_.yarns);
@@ -188,7 +188,7 @@ void Session::voxelize() {
         options.bounds = seen;
     }
     start([request = VoxelRequest{std::move(geometry), std::move(options)}](Progress& progress) {
-        return voxelize_seen(request, progress);
+        return voxelize_visible(request, progress);
     });
 }
 
@@ -217,8 +217,8 @@ void Session::take_result() {
 
 void Session::show_voxels() {
     Progress silent;
-    voxels_ = std::make_unique<VoxelView>(context_, sources_of(*subject_.levels),
-                                          VoxelViewOptions{}, silent);
+    voxels_ = std::make_unique<VoxelRenderer>(context_, sources_of(*subject_.levels),
+                                              VoxelRendererOptions{}, silent);
     const int first = voxels_->tables().first_level();
     if (first > 0) {
         message_ = str("levels below ", first, " exceed the driver's buffers and are not shown");
@@ -244,7 +244,7 @@ std::string Session::place_of(const char* suffix) const {
 
 void Session::save_picture() {
     picture_wanted_ = true;
-    message_ = "saves the picture when it is whole";
+    message_ = "saves the picture when it is complete";
     write_picture();
 }
 
@@ -252,7 +252,7 @@ void Session::write_picture() {
     if (!picture_wanted_ || !picture_->done()) return;
     picture_wanted_ = false;
     attempt([&] {
-        const ViewImage image = picture_->fine().image();
+        const RgbImage image = picture_->fine().image();
         write_png(place_of(".png"), image.width, image.height, 3, image.rgb);
         message_ = "saved " + place_of(".png");
     });
@@ -265,7 +265,7 @@ std::string Session::scene(const std::string& volume) const {
 
 void Session::save(bool scene) {
     if (!has_voxels()) {
-        message_ = "no voxels are there yet: voxelize first";
+        message_ = "there are no voxels yet: voxelize first";
         return;
     }
     const std::string text = scene ? this->scene(subject_.name + "_view.vdb") : std::string();
@@ -286,7 +286,7 @@ Ball Session::ball() const {
     return ball.radius > 0.0 ? ball : Ball{{}, 1.0};
 }
 
-/// From the unit ball to what is there.
+/// Moves the orbit from the unit ball to the objects.
 void Session::frame_first() {
     const double radius = ball().radius;
     Orbit& orbit = settings_.orbit;

@@ -36,7 +36,7 @@ protected:
     }
     ~SessionTest() override { std::filesystem::remove_all(folder_); }
 
-    /// Works until nothing is left to do, for a minute at most.
+    /// Works until nothing is left to do, for at most a minute.
     static bool settle(Session& session) {
         for (int i = 0; i < 6000 && session.busy(); ++i) {
             (void)session.work(0.05);
@@ -55,7 +55,7 @@ protected:
 
     opengl::Context context_;
     std::filesystem::path folder_;
-    Subject subject_;
+    ViewedObject subject_;
     Settings settings_;
 };
 
@@ -63,7 +63,7 @@ TEST_F(SessionTest, ShowsTheYarnAndWhatItsEditsChange) {
     Session session(context_, subject_, settings_, kSize, kSize);
     ASSERT_TRUE(settle(session));
     const double thin = darkness(session);
-    EXPECT_NEAR(thin, 2.0 * 0.4 / 9.0, 0.02); // 2 long, .4 wide, in a picture of 3 x 3
+    EXPECT_NEAR(thin, 2.0 * 0.4 / 9.0, 0.02); // 2 long, 0.4 wide, in a picture of 3 x 3
     Settings next = session.settings();
     next.yarns[0].radius = 2.0;
     session.set(next);
@@ -79,17 +79,17 @@ TEST_F(SessionTest, VoxelizesWhatIsSeenByBothBackendsAndSavesIt) {
         Session session(context_, subject_, settings_, kSize, kSize);
         Settings next = session.settings();
         next.voxels = {.raster = raster, .edge_px = 2.0};
-        next.orbit.target = {1.0, 0.0, 0.0}; // the picture ends at x = -.5
+        next.orbit.target = {1.0, 0.0, 0.0}; // the picture ends at x = -0.5
         session.set(next);
         session.voxelize();
         ASSERT_TRUE(settle(session)) << session.message();
         ASSERT_TRUE(session.has_voxels()) << session.message();
-        const VoxelGridInfo& info = session.subject().levels->front()->info();
+        const VoxelLevelInfo& info = session.subject().levels->front()->info();
         EXPECT_NEAR(info.lattice.voxel_size.x, 2.0 * 3.0 / kSize, 1e-12);
         session.save_scene();
         ASSERT_TRUE(settle(session));
         EXPECT_EQ(session.message().rfind("saved ", 0), 0u) << session.message();
-        const std::vector<VoxelGridInfo> saved = read_infos((folder_ / "fiber_view.vdb").string());
+        const std::vector<VoxelLevelInfo> saved = read_infos((folder_ / "fiber_view.vdb").string());
         EXPECT_EQ(saved.front().voxel_count, info.voxel_count);
         EXPECT_GT(info.voxel_count, 0);
         EXPECT_TRUE(std::filesystem::exists(folder_ / "fiber_view.toml"));
@@ -104,7 +104,7 @@ TEST_F(SessionTest, OpensAVolumeAloneOrBesideItsCurves) {
         session.save_voxels();
         ASSERT_TRUE(settle(session)) << session.message();
     }
-    Subject volume;
+    ViewedObject volume;
     volume.name = "volume";
     volume.levels =
         std::make_shared<VoxelLevels>(read_levels((folder_ / "fiber_view.vdb").string()));
@@ -156,7 +156,7 @@ TEST_F(SessionTest, WhatFailsIsALineAndLeavesTheRest) {
     EXPECT_EQ(session.job(), nullptr);
     EXPECT_NE(session.message().find("nothing is seen"), std::string::npos);
     next.voxels.only_seen = false;
-    next.voxels.edge_px = 1e-9; // more voxels than there can be
+    next.voxels.edge_px = 1e-9; // more voxels than possible
     session.set(next);
     session.voxelize();
     ASSERT_TRUE(settle(session));

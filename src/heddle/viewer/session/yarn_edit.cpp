@@ -19,7 +19,7 @@ std::uint32_t tinted(std::uint32_t color, Vec3f tint) {
     return out;
 }
 
-/// Materials may be shared by kinds: points carry the tint, over the material's colour.
+/// Kinds may share a material, so points carry the tint, in place of the material's colour.
 void tint_set(CurveSet& set, const Material& material, Vec3f tint) {
     if (tint == Vec3f{1.0f, 1.0f, 1.0f}) return;
     if (set.color.empty()) set.color.assign(set.points.size(), pack_color(material.albedo));
@@ -63,8 +63,8 @@ void multiply_fibers(Geometry& geometry, double factor) {
     }
 }
 
-Bounds seen_bounds(const Geometry& geometry, const CameraView& camera, double aspect) {
-    const PictureAxes axes(camera.eye - camera.target, camera.up);
+Bounds seen_bounds(const Geometry& geometry, const CameraParameters& camera, double aspect) {
+    const CameraAxes axes(camera.eye - camera.target, camera.up);
     const double tall =
         camera.orthographic ? 0.5 * camera.view_height : std::tan(0.5 * camera.view_angle);
     Bounds out;

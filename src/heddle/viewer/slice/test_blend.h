@@ -4,8 +4,8 @@
 #include <heddle/slice/section_layers.h>
 #include <heddle/slice/slices.h>
 #include <heddle/viewer/orbit.h>
-#include <heddle/viewer/slice/slice_view.h>
-#include <heddle/viewer/slice/view_sections.h>
+#include <heddle/viewer/slice/section_mipmaps.h>
+#include <heddle/viewer/slice/slice_renderer.h>
 #include <heddle/yarn/slice_image.h>
 
 #include <algorithm>
@@ -16,17 +16,17 @@
 #include <utility>
 #include <vector>
 
-// What SliceView draws without shadows, in double precision on the CPU: docs/raster.md says it in
-// words.
+// What SliceRenderer draws without shadows, in double precision on the CPU; docs/raster.md describes
+// it.
 
 namespace heddle::viewer::test {
 
-/// One image of a section in all its sizes, and what is asked of a texel.
+/// One image of a section in all its mipmap sizes, with texel lookup.
 struct SectionImage {
     std::vector<Texture> sizes;
     std::vector<std::uint8_t> light;
 
-    /// Value of a channel at u, v in [0, 1], between texels' centres.
+    /// The value of a channel at u, v in [0, 1], interpolated between the centres of texels.
     static double bilinear(
         const std::uint8_t* texels, int width, int size, int channels, int c, double u, double v) {
         const double x = u * size - 0.5;
@@ -83,9 +83,9 @@ public:
         }
     }
 
-    /// RGBA, linear, times alpha, rows from below.
-    std::vector<double> draw(const CameraView& camera, int width, int height, Vec3d light) {
-        const PictureAxes axes(camera.eye - camera.target, camera.up);
+    /// RGBA, linear, premultiplied, rows from the bottom.
+    std::vector<double> draw(const CameraParameters& camera, int width, int height, Vec3d light) {
+        const CameraAxes axes(camera.eye - camera.target, camera.up);
         parallel_ = camera.orthographic;
         pixel_ =
             (parallel_ ? camera.view_height / unit_ : 2.0 * std::tan(0.5 * camera.view_angle)) /
@@ -99,7 +99,7 @@ public:
     }
 
 private:
-    std::vector<Slab> sorted(const PictureAxes& axes, Vec3d eye) const {
+    std::vector<Slab> sorted(const CameraAxes& axes, Vec3d eye) const {
         std::vector<Slab> out;
         for (std::size_t i = 0; i + 1 < placed_.size(); ++i) {
             if (placed_[i].flags != 0) continue;
@@ -222,7 +222,7 @@ private:
         to[3] = alpha + to[3] * (1.0 - alpha);
     }
 
-    /// Kajiya and Kay's model in full light.
+    /// The model of Kajiya and Kay in full light.
     [[nodiscard]] Vec3d shade(Vec3d color, Vec3d t, Vec3d way, double open) const {
         const double along_light = dot(t, to_light_);
         const double along_eye = -dot(t, way);
