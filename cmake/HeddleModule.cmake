@@ -5,7 +5,7 @@
 # properties that the calls record: the installed rooms, their public headers and the foreign
 # libraries that they link.
 # the core: a C++20 compiler, and oneTBB or std::thread
-set(HEDDLE_CORE_ROOMS base executor geom sggx voxel yarn surface voxelize/block voxelize/chord voxelize/fiber
+set(HEDDLE_CORE_ROOMS base executor geom sggx voxel leaf_table flake yarn surface voxelize/block voxelize/chord voxelize/fiber
   voxelize/triangle voxelize lod device/level device)
 add_library(heddle_flags INTERFACE)
 set(_w -Wall -Wextra -Wshadow -Wconversion -Wdouble-promotion -Wundef -Wnon-virtual-dtor -Woverloaded-virtual -ffp-contract=off

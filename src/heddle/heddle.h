@@ -13,6 +13,7 @@
 #include <heddle/lod/rebuild_levels.h>
 #include <heddle/sggx/pack.h>
 #include <heddle/sggx/sggx.h>
+#include <heddle/voxel/leaf_voxels.h>
 #include <heddle/voxel/voxel_grid.h>
 #include <heddle/voxelize/voxelize.h>
 
@@ -23,6 +24,17 @@
 #include <heddle/io/mesh/write_glb.h>
 #include <heddle/io/vdb/read_vdb.h>
 #include <heddle/io/vdb/write_vdb.h>
+#include <heddle/job/edit_materials.h>
+#include <heddle/job/generate_geometry.h>
+#include <heddle/job/inspect_file.h>
+#include <heddle/job/level/measure_levels.h>
+#include <heddle/job/level/rebuild_levels.h>
+#include <heddle/job/render/export_volume.h>
+#include <heddle/job/render/preview_volume.h>
+#include <heddle/job/render/render_scene.h>
+#include <heddle/job/slice_yarn.h>
+#include <heddle/job/voxelize/voxelize_frames.h>
+#include <heddle/job/voxelize/voxelize_vol.h>
 #include <heddle/preview/preview.h>
 #include <heddle/stage/render_job.h>
 #endif
