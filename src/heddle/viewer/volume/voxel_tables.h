@@ -5,7 +5,7 @@
 #include <heddle/opengl/buffer.h>
 #include <heddle/opengl/context.h>
 #include <heddle/viewer/volume/measure_voxels.h>
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 
 #include <cstdint>
 #include <span>
@@ -14,12 +14,12 @@
 namespace heddle::viewer {
 
 /// Pointers to the levels, for functions that take levels of any origin.
-[[nodiscard]] std::vector<const VoxelSource*> sources_of(const VoxelLevels& levels);
+[[nodiscard]] std::vector<const VoxelLevel*> sources_of(const VoxelLevels& levels);
 
-/// All levels of a volume in the driver's memory, each like a preview::Scene: 12 bytes per voxel,
-/// and the tiles of the scene's LeafTable, by which kVoxelTableGlsl finds leaves. Tiles are in a
-/// box of cells, where a shader reads one word: in a hash table all lanes of a wave would wait for
-/// the longest search. Needs a current Context while it lives.
+/// All levels of a volume in the driver's memory, each like a preview::PreviewVolume: 12 bytes per
+/// voxel, and the tiles of the LeafTable, by which kVoxelTableGlsl finds leaves. Tiles are in a box
+/// of cells, where a shader reads one word: in a hash table all lanes of a wave would wait for the
+/// longest search. Needs a current Context while it lives.
 class VoxelTables {
 public:
     /// Predicts the bytes before any are allocated. If they exceed a storage block, the finest
@@ -32,7 +32,7 @@ public:
     /// @throws Error  InvalidArgument: edges do not double, more than 24 levels; OutOfMemory: not
     ///                even the coarsest fits; Device: too few storage blocks; Cancelled
     VoxelTables(const opengl::Context& context,
-                std::span<const VoxelSource* const> levels,
+                std::span<const VoxelLevel* const> levels,
                 std::int64_t storage_bytes,
                 Progress& progress);
 
@@ -57,10 +57,10 @@ public:
     [[nodiscard]] std::span<const Vec3i> blocks() const { return blocks_; }
 
 private:
-    struct Level;
-    void plan(std::span<const VoxelSource* const> levels, std::int64_t most, Progress& progress);
-    void fill(std::span<const VoxelSource* const> levels, Progress& progress);
-    void write_levels(std::vector<Level>& levels);
+    struct LevelTable;
+    void plan(std::span<const VoxelLevel* const> levels, std::int64_t most, Progress& progress);
+    void fill(std::span<const VoxelLevel* const> levels, Progress& progress);
+    void write_levels(std::vector<LevelTable>& levels);
 
     Vec3d voxel_size_{1.0, 1.0, 1.0}; ///< of level 0
     Bounds bounds_, finest_bounds_;
