@@ -118,11 +118,13 @@ std::string left_column(const Option& option) {
     return option.metavar.empty() ? option.names : option.names + " " + option.metavar;
 }
 
-std::string escape_bars(std::string text) {
-    for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) {
-        text.insert(at, "\\");
+std::string escape_bars(const std::string& text) {
+    std::string escaped;
+    for (const char c : text) {
+        if (c == '|') escaped += '\\';
+        escaped += c;
     }
-    return text;
+    return escaped;
 }
 
 std::string markdown_row(const Option& option) {
