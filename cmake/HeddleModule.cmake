@@ -1,12 +1,13 @@
 # heddle_add_module(<room> [INTERFACE] [NO_INSTALL] PUBLIC_HEADERS ... [SOURCES ...] [CUDA_SOURCES ...] [TESTS ...] [DEPS ...] [PRIVATE_DEPS ...] [TEST_DEPS ...])
 # One call per folder: target heddle_<room>, alias heddle::<room>, test binary heddle_<room>_test.
-# Every library is installed with its headers: the core in one export set, the rooms above it in another,
-# so that a machine without their libraries can still link the core (cmake/heddle-config.cmake.in).
+# cmake/HeddleLibrary.cmake and HeddleInstall.cmake make and install heddle::heddle of what the calls record in global
+# properties: the rooms that are installed, their public headers and the foreign libraries that they link.
 # the core: a C++20 compiler, and oneTBB or std::thread
 set(HEDDLE_CORE_ROOMS base executor geom sggx voxel yarn surface voxelize/block voxelize/chord voxelize/fiber
   voxelize/triangle voxelize lod device/level device)
 add_library(heddle_flags INTERFACE)
-set(_w -Wall -Wextra -Wshadow -Wconversion -Wdouble-promotion -Wundef -Wnon-virtual-dtor -Woverloaded-virtual -ffp-contract=off)
+set(_w -Wall -Wextra -Wshadow -Wconversion -Wdouble-promotion -Wundef -Wnon-virtual-dtor -Woverloaded-virtual -ffp-contract=off
+  -fno-semantic-interposition) # with -fPIC g++ would otherwise not inline a function that another file can call
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   list(APPEND _w -Wno-restrict) # false at -O3 for "text" + std::string (GCC bug 105651)
 endif()
@@ -42,12 +43,15 @@ function(heddle_add_module path)
   endif()
   set_target_properties(heddle_${room} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON EXPORT_NAME ${room})
   if(NOT A_NO_INSTALL)
-    set(set heddle-apps)
+    set_property(GLOBAL APPEND PROPERTY HEDDLE_ROOMS heddle_${room})
+    list(TRANSFORM A_PUBLIC_HEADERS PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE headers)
+    set_property(GLOBAL APPEND PROPERTY HEDDLE_HEADERS ${headers})
+    set(foreign ${A_DEPS} ${A_PRIVATE_DEPS})
+    list(FILTER foreign EXCLUDE REGEX "^heddle::")
+    set_property(GLOBAL APPEND PROPERTY HEDDLE_FOREIGN ${foreign})
     if(path IN_LIST HEDDLE_CORE_ROOMS)
-      set(set heddle-core)
+      set_property(GLOBAL APPEND PROPERTY HEDDLE_CORE_TARGETS heddle_${room})
     endif()
-    install(TARGETS heddle_${room} EXPORT ${set} FILE_SET HEADERS)
-    set_property(GLOBAL APPEND PROPERTY HEDDLE_EXPORT_SETS ${set})
   endif()
   if(HEDDLE_TESTS AND A_TESTS)
     find_package(GTest REQUIRED)

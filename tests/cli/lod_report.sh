@@ -5,10 +5,10 @@
 make_knit
 
 works voxelize knit.bcc --yarn cotton --voxels 48 --keep-masks -o masks.vdb --quiet
-works lod-report masks.vdb --parents 20 --methods moments,naive --plot errors.png
+works lod-report masks.vdb --parents 20 --methods moments,naive --plot errors.svg
 [ "$(grep -c '^| 1 |' out.txt)" -eq 3 ] ||
     wrong "not a row for the file and two methods: $(cat out.txt)"
-[ "$(head -c 4 errors.png | tail -c 3)" = PNG ] || wrong "the plot is no PNG"
+[ "$(head -c 4 errors.svg)" = '<svg' ] || wrong "the plot is no SVG"
 works lod-report masks.vdb --parents 20 --methods single --json
 [ "$(json coverage_truth)" = union ] || wrong "masks give no union"
 works lod-report masks.vdb --parents 20 --methods wasserstein --part 500 --quiet
@@ -17,7 +17,7 @@ fails 3 "level0.vdb: has only the finest level" lod-report level0.vdb
 fails 3 "missing.vdb" lod-report missing.vdb
 fails 3 "knit.bcc: byte 0: not a VDB" lod-report knit.bcc
 fails 2 "did you mean 'moments'?" lod-report masks.vdb --methods moment
-fails 2 "--plot: 'x.pdf' must end in .png" lod-report masks.vdb --plot x.pdf
-fails 1 "nowhere" lod-report masks.vdb --plot nowhere/x.png
+fails 2 "--plot: 'x.png' must end in .svg" lod-report masks.vdb --plot x.png
+fails 1 "nowhere" lod-report masks.vdb --plot nowhere/x.svg
 
 finish

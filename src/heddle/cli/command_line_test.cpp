@@ -1,5 +1,6 @@
 #include <heddle/cli/commands.h>
 #include <heddle/cli/terminal/command_line.h>
+#include <heddle/cli/terminal/help_text.h>
 
 #include <gtest/gtest.h>
 
@@ -75,7 +76,7 @@ TEST(CommandLine, WrongWordsAreNamedWithWhatWouldBeRight) {
 TEST(CommandLine, EveryPresetIsAValueThatItsOwnRowAllows) {
     for (const Command& command : commands()) {
         std::vector<Option> options = command.options;
-        options.insert(options.end(), common_options().begin(), common_options().end());
+        options.insert(options.end(), common_rows().begin(), common_rows().end());
         std::set<std::string> keys;
         for (const Option& option : options) {
             EXPECT_TRUE(keys.insert(option.key()).second) << command.name << " " << option.key();
@@ -89,7 +90,7 @@ TEST(CommandLine, EveryPresetIsAValueThatItsOwnRowAllows) {
 TEST(CommandLine, HelpHasEachRowUnderTheHeadingOfItsGroup) {
     for (const Command& command : commands()) {
         std::vector<Option> options = command.options;
-        options.insert(options.end(), common_options().begin(), common_options().end());
+        options.insert(options.end(), common_rows().begin(), common_rows().end());
         const std::string text = help_text(command);
         std::size_t line = 0, heading = 0;
         std::string group;
@@ -138,7 +139,7 @@ TEST(CommandLine, JoinedListsHaveEachGroupInOnePiece) {
 TEST(CommandLine, TextsAreSentences) {
     for (const Command& command : commands()) {
         std::vector<Option> options = command.options;
-        options.insert(options.end(), common_options().begin(), common_options().end());
+        options.insert(options.end(), common_rows().begin(), common_rows().end());
         for (const Option& option : options) {
             EXPECT_TRUE(option.text.ends_with('.')) << command.name << " " << option.names;
         }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <heddle/cli/terminal/option.h>
+#include <heddle/cli/voxelize/voxelize.h>
 
 #include <vector>
 
@@ -9,7 +10,6 @@ namespace heddle::cli {
 [[nodiscard]] Command info_command();
 [[nodiscard]] Command generate_command();
 [[nodiscard]] Command slice_command();
-[[nodiscard]] Command voxelize_command();
 [[nodiscard]] Command lod_command();
 [[nodiscard]] Command lod_report_command();
 [[nodiscard]] Command material_command();

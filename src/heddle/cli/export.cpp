@@ -1,50 +1,25 @@
 #include <heddle/base/error.h>
-#include <heddle/base/memory.h>
 #include <heddle/cli/commands.h>
-#include <heddle/cli/load.h>
+#include <heddle/cli/rows/report_parts.h>
 #include <heddle/cli/terminal/progress_bar.h>
-#include <heddle/cli/terminal/report.h>
-#include <heddle/io/vdb/read_vdb.h>
-#include <heddle/io/vol/write_mitsuba.h>
-#include <heddle/io/vol/write_mitsuba06.h>
-#include <heddle/voxel/flake_field.h>
-
-#include <chrono>
+#include <heddle/job/render/export_volume.h>
 
 namespace heddle::cli {
 namespace {
 
-FlakeField read_field(const std::string& path, int level) {
-    const std::unique_ptr<VoxelGrid> grid = read_vdb(path, level);
-    if (grid->info().voxel_count == 0) {
-        throw Error(ErrorCode::BadFile, "holds no voxels", "export a volume that has voxels",
-                    {.path = path});
+job::ExportOptions export_options_from(const Arguments& arguments) {
+    job::ExportOptions options;
+    if (arguments.text("to") == "mitsuba06") options.to = job::ExportFormat::Mitsuba06;
+    options.level = static_cast<int>(arguments.integer("level"));
+    options.pad = arguments.find_number("pad");
+    options.stddev = arguments.find_number("stddev");
+    if (arguments.given("block-samples")) {
+        options.block_samples = static_cast<std::int32_t>(arguments.integer("block-samples"));
     }
-    std::vector<Vec3f> albedo;
-    for (const Material& material : grid->info().materials) albedo.push_back(material.albedo);
-    return {*grid, albedo};
+    return options;
 }
 
-void export_mitsuba06(const Arguments& arguments, Report& report, ProgressBar& bar) {
-    const std::string& folder = arguments.text("output");
-    bar.begin("read", "files", 1);
-    const std::unique_ptr<VoxelGrid> grid =
-        read_vdb(arguments.text("FILE"), static_cast<int>(arguments.integer("level")));
-    const Mitsuba06Options options{
-        .stddev = arguments.number("stddev"),
-        .block_samples = static_cast<std::int32_t>(arguments.integer("block-samples"))};
-    if (options.block_samples == 1) {
-        throw UsageError(
-            "--block-samples: neighbouring blocks share a layer of samples, so the minimum is 2; 0 = a single block");
-    }
-    Mitsuba06Files files;
-    write_output([&] { files = write_mitsuba06(*grid, folder, options, bar); });
-    bar.finish();
-    if (files.no_fiber > 0) {
-        report.note(
-            str(files.no_fiber, " voxels hold only surfaces and are written without a direction"));
-    }
-    report.text("output", folder);
+void report_blocks(Report& report, const Mitsuba06Files& files) {
     report.add("resolution", "resolution", {files.samples.x, files.samples.y, files.samples.z},
                str(files.samples.x, " x ", files.samples.y, " x ", files.samples.z, " samples"));
     const Vec3i n = files.block_samples;
@@ -57,31 +32,17 @@ void export_mitsuba06(const Arguments& arguments, Report& report, ProgressBar& b
 }
 
 void run_export(const Arguments& arguments, Report& report, ProgressBar& bar) {
-    if (arguments.text("to") == "mitsuba06") {
-        if (arguments.given("pad"))
-            throw UsageError("--pad cannot be used with --to mitsuba06, whose blocks are sparse");
-        return export_mitsuba06(arguments, report, bar);
-    }
-    for (const char* option : {"stddev", "block-samples"}) {
-        if (!arguments.given(option)) continue;
-        throw UsageError(str("--", option, " needs --to mitsuba06"));
-    }
-    const auto start = std::chrono::steady_clock::now();
     const std::string& folder = arguments.text("output");
-    bar.begin("read", "files", 1);
-    const FlakeField field =
-        read_field(arguments.text("FILE"), static_cast<int>(arguments.integer("level")));
-    bar.check();
-    const MitsubaBox box = plan_mitsuba(field, arguments.number("pad"));
-    write_output([&] { write_mitsuba(field, box, folder, bar); });
-    bar.finish();
+    const job::ExportReport done =
+        job::export_volume(arguments.text("FILE"), folder, export_options_from(arguments), bar);
+    report_notes(report, done.notes);
     report.text("output", folder);
+    if (done.files) return report_blocks(report, *done.files);
+    const MitsubaBox& box = done.box.value();
     report.add("resolution", "resolution", {box.size.x, box.size.y, box.size.z},
                str(box.size.x, " x ", box.size.y, " x ", box.size.z, " voxels in a dense grid"));
     report.bytes("files", box.bytes);
-    const std::chrono::duration<double> total = std::chrono::steady_clock::now() - start;
-    report.seconds("total", total.count());
-    report.bytes("peak memory", peak_resident_bytes());
+    report_cost(report, done.seconds, done.peak_bytes);
 }
 
 } // namespace

@@ -1,29 +1,14 @@
 #include <heddle/base/error.h>
-#include <heddle/base/memory.h>
 #include <heddle/cli/commands.h>
-#include <heddle/cli/load.h>
+#include <heddle/cli/rows/report_parts.h>
 #include <heddle/cli/terminal/progress_bar.h>
-#include <heddle/cli/terminal/report.h>
 #include <heddle/cli/terminal/text.h>
-#include <heddle/geom/generate.h>
-#include <heddle/io/curve/curve_files.h>
-#include <heddle/io/mesh/write_glb.h>
+#include <heddle/job/generate_geometry.h>
 
 namespace heddle::cli {
 namespace {
 
-/// The suffix of the format that holds what this kind makes.
-std::string suffix_for(GenerateKind kind) {
-    switch (kind) {
-    case GenerateKind::Hair:
-    case GenerateKind::Curls: return ".hair";
-    case GenerateKind::Brushed:
-    case GenerateKind::Grass: return ".glb";
-    default: return ".bcc";
-    }
-}
-
-GenerateOptions generate_options(const Arguments& arguments) {
+GenerateOptions generate_options_from(const Arguments& arguments) {
     GenerateOptions options;
     options.kind = generate_kind_from(arguments.text("KIND")).value();
     const std::string& shape = arguments.text("shape");
@@ -39,46 +24,23 @@ GenerateOptions generate_options(const Arguments& arguments) {
         options.ny = *ny;
     }
     options.seed = static_cast<std::uint64_t>(arguments.integer("seed"));
-    if (arguments.given("radius")) options.radius = arguments.number("radius");
-    if (arguments.given("spacing")) options.spacing = arguments.number("spacing");
-    return resolve(options);
-}
-
-void write_geometry(const Geometry& geometry, GenerateKind kind, const std::string& path) {
-    const std::string suffix = suffix_for(kind);
-    if (suffix == ".glb") return write_glb(geometry, path);
-    if (suffix == ".bcc") return write_bcc(geometry.curves, path);
-    if (geometry.curves.size() != 1) {
-        throw Error(ErrorCode::Internal, str("generate: ", geometry.curves.size(),
-                                             " sets of strands, a .hair file takes one"));
-    }
-    write_hair(geometry.curves.front(), path);
+    options.radius = arguments.find_number("radius").value_or(0.0);
+    options.spacing = arguments.find_number("spacing").value_or(0.0);
+    return options;
 }
 
 void run_generate(const Arguments& arguments, Report& report, ProgressBar& bar) {
-    const std::string output = arguments.text("output");
-    const GenerateOptions options = generate_options(arguments);
-    check_output(output, suffix_for(options.kind));
-    const std::int64_t bytes = predict_bytes(options);
-    if (const std::int64_t free = available_bytes(); free > 0 && bytes > free) {
-        throw Error(ErrorCode::OutOfMemory,
-                    str("generate: ", show_bytes(static_cast<double>(bytes)), " are needed and ",
-                        show_bytes(static_cast<double>(free)), " are free"),
-                    "give smaller --counts");
-    }
-    bar.begin("generate", "nodes", predict_nodes(options));
-    const Geometry geometry = generate(options);
-    bar.check();
-    bar.begin("write", "nodes", predict_nodes(options));
-    write_output([&] { write_geometry(geometry, options.kind, output); });
-    bar.finish();
+    const std::string& output = arguments.text("output");
+    const job::GenerateReport done =
+        job::generate_to_file(generate_options_from(arguments), output, bar);
+    const GenerateOptions& options = done.options;
     report.text("output", output);
     report.text("kind", std::string(to_string(options.kind)));
     report.add("counts", "counts", {options.nx, options.ny}, str(options.nx, " x ", options.ny));
-    report.count("nodes", predict_nodes(options));
+    report.count("nodes", done.nodes);
     report.number("radius", options.radius, "scene units");
     report.number("spacing", options.spacing, "scene units");
-    for (const auto& [stage, seconds] : bar.stages()) report.seconds(stage, seconds);
+    report_stages(report, done.stages);
 }
 
 } // namespace

@@ -3,6 +3,8 @@
 #include <heddle/base/parallel.h>
 #include <heddle/cli/commands.h>
 #include <heddle/cli/terminal/command_line.h>
+#include <heddle/cli/terminal/help_text.h>
+#include <heddle/cli/terminal/option_words.h>
 #include <heddle/cli/terminal/progress_bar.h>
 #include <heddle/cli/terminal/report.h>
 #include <heddle/cli/terminal/text.h>
@@ -49,30 +51,25 @@ int fail(ExitCode code, std::string text) {
     return code;
 }
 
+/// What the options of all commands are called, without dashes.
+const std::vector<std::string>& option_keys() {
+    static const std::vector<std::string> keys = [] {
+        std::vector<std::string> all;
+        for (const Command& command : commands()) {
+            for (const Option& option : with_common(command)) all.push_back(option.key());
+        }
+        return all;
+    }();
+    return keys;
+}
+
 /// An Error's problems on stderr, one a line.
 int fail(const Error& error) {
     const ExitCode code = exit_code(error);
-    for (const std::string& line : split(error.what(), '\n')) fail(code, line);
-    return code;
-}
-
-/// The words as a shell would take them back.
-std::string quote_line(const std::vector<std::string>& words) {
-    constexpr std::string_view kPlain =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
-        "-_./,=:+@%";
-    std::string line = "heddle";
-    for (const std::string& word : words) {
-        line += ' ';
-        if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) {
-            line += word;
-            continue;
-        }
-        line += '\'';
-        for (const char c : word) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
-        line += '\'';
+    for (const std::string& line : split(error.what(), '\n')) {
+        fail(code, in_option_words(line, option_keys()));
     }
-    return line;
+    return code;
 }
 
 /// Eight lines; a test checks that every command is in them.
@@ -94,8 +91,10 @@ void run_command(const Command& command, const std::vector<std::string>& words) 
     Report report;
     report.json = arguments.given("json");
     report.quiet = arguments.given("quiet");
+    report.option_keys = option_keys();
     // on the heap and never freed: a late signal may still reach it
-    auto* bar = new ProgressBar(!report.quiet && ::isatty(STDERR_FILENO) == 1);
+    auto* bar = new ProgressBar(!report.quiet && ::isatty(STDERR_FILENO) == 1,
+                                [&report](const std::string& note) { report.say(note); });
     cancel_on_signals(*bar);
     try {
         command.run(arguments, report, *bar);

@@ -1,11 +1,8 @@
 #include <heddle/base/error.h>
 #include <heddle/cli/commands.h>
-#include <heddle/cli/load.h>
+#include <heddle/cli/rows/report_parts.h>
 #include <heddle/cli/terminal/progress_bar.h>
-#include <heddle/cli/terminal/report.h>
-#include <heddle/io/image/image.h>
-#include <heddle/io/vdb/read_vdb.h>
-#include <heddle/preview/preview.h>
+#include <heddle/job/render/preview_volume.h>
 
 #include <algorithm>
 #include <limits>
@@ -19,7 +16,7 @@ const std::vector<std::string>& color_names() {
     return names; // in the order of PreviewColor
 }
 
-PreviewOptions preview_options(const Arguments& arguments) {
+PreviewOptions preview_options_from(const Arguments& arguments) {
     PreviewOptions options;
     const auto color =
         std::find(color_names().begin(), color_names().end(), arguments.text("color"));
@@ -39,22 +36,15 @@ PreviewOptions preview_options(const Arguments& arguments) {
 }
 
 void run_preview(const Arguments& arguments, Report& report, ProgressBar& bar) {
-    const std::string output = arguments.text("output");
-    const PreviewOptions options = preview_options(arguments);
-    check_output(output, ".png");
-    const int level = static_cast<int>(arguments.integer("level"));
-    bar.begin("read", "files", 1);
-    const std::unique_ptr<VoxelGrid> grid = read_vdb(arguments.text("FILE"), level);
-    bar.check();
-    const PreviewImage image = render_preview(*grid, options, bar);
-    bar.begin("write", "files", 1);
-    write_output([&] { write_png(output, image.width, image.height, 4, image.rgba); });
-    bar.finish();
+    const std::string& output = arguments.text("output");
+    const job::PreviewReport done = job::preview_volume_to_file(
+        arguments.text("FILE"), output, static_cast<int>(arguments.integer("level")),
+        preview_options_from(arguments), bar);
     report.text("output", output);
-    report.count("voxels", grid->info().voxel_count);
-    report.add("size", "size", {image.width, image.height},
-               str(image.width, " x ", image.height, " pixels"));
-    for (const auto& [stage, seconds] : bar.stages()) report.seconds(stage, seconds);
+    report.count("voxels", done.voxels);
+    report.add("size", "size", {done.width, done.height},
+               str(done.width, " x ", done.height, " pixels"));
+    report_stages(report, done.stages);
 }
 
 } // namespace

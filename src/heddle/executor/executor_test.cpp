@@ -67,21 +67,6 @@ TEST(HostExecutor, TakesNoMoreThanTheBudgetAndGivesItBack) {
     EXPECT_EQ(all.size(), 1000u);
 }
 
-TEST(HostExecutor, ADeviceThatVanishesIsAnErrorOfItsStage) {
-    Budget budget(1000);
-    HostExecutor exec(budget, 1);
-    exec.set_stage("bin");
-    const Array<std::uint64_t> sum = exec.make_zero<std::uint64_t>(2);
-    exec.for_each(1, AddSquare{sum.data(), sum.data() + 1});
-    try {
-        exec.for_each(1, AddSquare{sum.data(), sum.data() + 1});
-        FAIL();
-    } catch (const Error& e) {
-        EXPECT_EQ(e.code(), ErrorCode::Device);
-        EXPECT_STREQ(e.what(), "bin: the device is gone; use --device cpu");
-    }
-}
-
 TEST(Device, SaysWhatItIsOrWhyThereIsNone) {
     const Device device = find_device();
     EXPECT_NE(device.name.empty(), device.why.empty());

@@ -9,7 +9,7 @@
 namespace heddle::opengl {
 namespace {
 
-/// A block without bytes cannot be bound.
+/// An empty storage block cannot be bound.
 constexpr std::size_t kLeastBytes = 16;
 
 std::uint32_t make(const char* name, std::size_t bytes, const void* from) {
@@ -20,7 +20,7 @@ std::uint32_t make(const char* name, std::size_t bytes, const void* from) {
     glDeleteBuffers(1, &id);
     throw Error(ErrorCode::OutOfMemory,
                 str("opengl: the driver has no ", (bytes >> 20) + 1, " MiB for ", name),
-                "give a smaller --memory, or use larger voxels");
+                "lower --memory, or use larger voxels");
 }
 
 } // namespace

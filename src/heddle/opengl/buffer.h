@@ -6,11 +6,11 @@
 
 namespace heddle::opengl {
 
-/// Bytes in the driver's memory that shaders read and write. Needs a current Context while it
+/// A buffer in the driver's memory that shaders read and write. Needs a current Context while it
 /// lives.
 class Buffer {
 public:
-    /// @param name  what it holds, for messages
+    /// @param name  its contents, for messages
     /// @throws Error  OutOfMemory
     Buffer(const char* name, std::size_t bytes);
     template <typename T>
@@ -22,16 +22,16 @@ public:
     Buffer(const Buffer&) = delete;
     Buffer& operator=(const Buffer&) = delete;
 
-    /// As shader storage block `binding`.
+    /// Binds it as shader storage block `binding`.
     void bind_storage(std::uint32_t binding) const;
-    /// As uniform block `binding`.
+    /// Binds it as uniform block `binding`.
     void bind_uniform(std::uint32_t binding) const;
-    /// As source of indirect draws and dispatches.
+    /// Binds it as the source of indirect draws and dispatches.
     void bind_indirect() const;
-    /// Sets all its words of 32 bits.
+    /// Sets all its 32-bit words.
     void clear(std::uint32_t word = 0) const;
     void write(std::span<const std::byte> bytes, std::size_t offset = 0) const;
-    /// Waits for the shaders before it.
+    /// Reads it after the shaders before have finished.
     void read(std::span<std::byte> out, std::size_t offset = 0) const;
     [[nodiscard]] std::size_t byte_count() const { return bytes_; }
 

@@ -19,7 +19,7 @@ constexpr const char* kFix =
     throw Error(ErrorCode::Device, "opengl: " + what, kFix);
 }
 
-/// epoxy ends the program where a library is missing: asked for here first.
+/// epoxy ends the program if a library is missing, so they are checked first.
 void require_libraries() {
     void* egl = dlopen("libEGL.so.1", RTLD_LAZY | RTLD_LOCAL);
     if (egl == nullptr) fail("there is no libEGL.so.1");
@@ -28,7 +28,7 @@ void require_libraries() {
     if (gl == nullptr) fail("there is no libOpenGL.so.0 and no libGL.so.1");
 }
 
-/// Displays to try, the surfaceless one first: it needs no device.
+/// The displays to try, the surfaceless one first: it needs no device.
 std::vector<EGLDisplay> displays() {
     std::vector<EGLDisplay> out;
     const EGLDisplay none = EGL_NO_DISPLAY;
@@ -63,13 +63,13 @@ struct Context::Handles {
         if (display == EGL_NO_DISPLAY) return;
         eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
         if (context != EGL_NO_CONTEXT) eglDestroyContext(display, context);
-        // the display stays: it belongs to the process, and ending it unloads a driver that others
-        // use
+        // the display is kept: it belongs to the process, and terminating it unloads a driver that
+        // is used elsewhere
         display = EGL_NO_DISPLAY;
         context = EGL_NO_CONTEXT;
     }
 
-    /// False where this display gives no such context.
+    /// Returns false if this display does not offer such a context.
     bool open(EGLDisplay on, const ContextOptions& options) {
         EGLint major = 0;
         EGLint minor = 0;
@@ -168,14 +168,14 @@ void Context::check(const char* stage) const {
 
 void check_status(std::uint32_t reset, std::uint32_t error, const char* stage) {
     if (reset != GL_NO_ERROR || error == GL_CONTEXT_LOST) {
-        throw LostContext(
-            ErrorCode::Device, str("opengl: the context was lost in stage '", stage, "'"),
-            "run again; with a smaller --memory if the driver gave up on a long batch");
+        throw LostContext(ErrorCode::Device,
+                          str("opengl: the context was lost in stage '", stage, "'"),
+                          "run again, with a lower --memory if a batch took too long");
     }
     if (error == GL_OUT_OF_MEMORY) {
         throw Error(ErrorCode::OutOfMemory,
                     str("opengl: the driver is out of memory in stage '", stage, "'"),
-                    "give a smaller --memory, or use larger voxels");
+                    "lower --memory, or use larger voxels");
     }
     if (error != GL_NO_ERROR) {
         throw Error(ErrorCode::Device,

@@ -61,7 +61,7 @@ TEST(Program, WhatTheDriverRefusesIsOneLineWithTheShadersName) {
 
 TEST(Program, DispatchReachesEveryItemOnceAlsoInManyRows) {
     const Context context;
-    const std::size_t items = 5'000'001; // in groups of 64 more than one row of them
+    const std::size_t items = 5'000'001; // more groups of 64 than one row has
     const Buffer out("counts", items * sizeof(std::uint32_t));
     out.clear();
     out.bind_storage(0);

@@ -4,7 +4,7 @@
 
 namespace heddle::opengl {
 
-/// A frame buffer without images, for shaders that write to buffers. Needs a current Context.
+/// A framebuffer without images, for shaders that write to buffers. Needs a current Context.
 class EmptyFrame {
 public:
     EmptyFrame();
@@ -12,9 +12,9 @@ public:
     EmptyFrame(const EmptyFrame&) = delete;
     EmptyFrame& operator=(const EmptyFrame&) = delete;
 
-    /// Draws go here, `width` x `height` px, without depth test.
+    /// Makes it the target of draws, with `width` x `height` px and no depth test.
     void bind(std::int32_t width, std::int32_t height) const;
-    /// Draws quads of four corners, as many as the bound indirect buffer says.
+    /// Draws quads of four corners; the bound indirect buffer has their number.
     static void draw_indirect();
 
 private:

@@ -11,7 +11,7 @@
 namespace heddle::opengl {
 namespace {
 
-constexpr std::uint32_t kGroupsAcross = 32768; ///< every driver takes 65535 along an axis
+constexpr std::uint32_t kGroupsAcross = 32768; ///< every driver allows 65535 along an axis
 constexpr std::uint32_t kGroup = 64;
 
 constexpr std::string_view kVersion = "#version 450 core\n";

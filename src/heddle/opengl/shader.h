@@ -8,17 +8,17 @@
 
 namespace heddle::opengl {
 
-/// A linked program. Needs a current Context while it lives.
+/// A linked shader program. Needs a current Context while it lives.
 class Program {
 public:
-    /// A compute shader in groups of 64. Before the source, which may come in two parts, stand
-    /// `#version 450 core`, the group's size and `uint item()`, the number of the invocation's
-    /// item; it may be past the last.
+    /// Compiles a compute shader with work groups of 64. The source, which may have two parts, is
+    /// preceded by `#version 450 core`, the size of the group and `uint item()`, the number of the
+    /// invocation's item, which may be past the last one.
     /// @param name  for messages
-    /// @throws Error  Internal: the driver's first line on what it refuses
+    /// @throws Error  Internal: with the first line of the driver's message
     [[nodiscard]] static Program
     compute(const char* name, std::string_view shared, std::string_view body);
-    /// A vertex and a fragment shader, each after the shared part.
+    /// Compiles a vertex and a fragment shader, each preceded by the shared part.
     /// @throws as compute
     [[nodiscard]] static Program draw(const char* name,
                                       std::string_view shared,
@@ -31,16 +31,16 @@ public:
     Program& operator=(const Program&) = delete;
 
     void use() const;
-    /// Sets a uniform by its name; one that the program does not use is ignored.
+    /// Sets a uniform by its name; a name that the program does not use is ignored.
     void set(const char* name, std::int32_t value) const;
     void set(const char* name, std::uint32_t value) const;
     void set(const char* name, float value) const;
     void set(const char* name, Vec3f value) const;
     void set(const char* name, Vec3i value) const;
-    /// Runs one invocation for each of `items`: as many groups along x as every driver takes, the
-    /// rest along y. Waits for nothing.
+    /// Runs one invocation for each of `items`, with as many groups along x as every driver allows
+    /// and the rest along y. Does not wait.
     void dispatch(std::uint64_t items) const;
-    /// Runs as many groups as three words at `offset` of the bound indirect buffer say.
+    /// Runs the number of groups that is in three words at `offset` of the bound indirect buffer.
     void dispatch_indirect(std::size_t offset) const;
 
 private:
@@ -48,7 +48,7 @@ private:
     std::uint32_t id_ = 0;
 };
 
-/// What shaders wrote to buffers is there for shaders, indirect draws and reads that follow.
+/// Makes the writes of shaders to buffers visible to later shaders, indirect draws and reads.
 void finish_writes();
 
 } // namespace heddle::opengl

@@ -5,9 +5,9 @@
 
 namespace heddle {
 
-/// The explicit geometry of an object, in its own space: read or generated, with its yarn.
-/// @throws Error  as read_geometry, generate and apply_yarn; InvalidArgument: an object of a volume
-///                alone, or a yarn or radius for geometry without curves
+/// Reads or generates the explicit geometry of an object, in its own space, with its yarn.
+/// @throws Error  as read_geometry, generate and apply_yarn; InvalidArgument: an object with only a
+///                volume, or a yarn or radius for geometry without curves
 [[nodiscard]] Geometry load_object_geometry(const SceneObject& object);
 
 } // namespace heddle

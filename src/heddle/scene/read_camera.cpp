@@ -8,9 +8,9 @@ namespace heddle::scene_form {
 namespace {
 
 constexpr std::int64_t kMostSide = 1 << 16;
-constexpr std::int64_t kMostPixels = std::int64_t{1} << 28; // what an .exr is read back up to
+constexpr std::int64_t kMostPixels = std::int64_t{1} << 28; // the largest .exr that is read
 
-/// Sine of the angle below which two directions count as one.
+/// The sine of the angle below which two directions count as parallel.
 constexpr double kParallel = 1e-6;
 
 void check_axes(const TableReader& reader, const SceneCamera& camera) {

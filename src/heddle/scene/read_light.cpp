@@ -15,7 +15,7 @@ using Kind = SceneLight::Kind;
 const std::vector<std::string_view> kKinds{"constant", "environment", "directional", "point",
                                            "area"};
 
-/// The vector with length 1; a problem where it has no direction.
+/// The vector, scaled to length 1; a problem if it has no direction.
 Vec3d read_direction(TableReader& reader, std::string_view key) {
     Vec3d v{0, 0, -1};
     reader.require(key, "write 'direction = [x, y, z]', the way light travels");
@@ -25,7 +25,7 @@ Vec3d read_direction(TableReader& reader, std::string_view key) {
         reader.problem(key, str("'", key, "' has no length"), "write where light travels to");
         return v;
     }
-    return normalize(v * (1.0 / largest)); // squares neither overflow nor vanish
+    return normalize(v * (1.0 / largest)); // so squares neither overflow nor underflow
 }
 
 void read_area(TableReader& reader, SceneLight& light) {
@@ -46,7 +46,7 @@ void read_color(TableReader& reader, SceneLight& light) {
     double strength = 1.0;
     reader.color("color", light.color);
     reader.number("strength", strength, kNotNegative);
-    // in double: the product of two floats may pass a float's largest
+    // in double: the product of two floats may overflow a float
     const Vec3d color = to_double(light.color) * strength;
     const double largest = std::max({color.x, color.y, color.z});
     if (!(largest > 0.0)) {
@@ -66,7 +66,7 @@ SceneLight read_light(TableReader& reader) {
     SceneLight light;
     reader.require("kind", "write 'kind = \"constant\"', or environment, directional, point, area");
     const std::optional<std::size_t> kind = reader.choose("kind", kKinds);
-    if (!kind) return light; // which keys there are depends on it
+    if (!kind) return light; // the allowed keys depend on it
     light.kind = static_cast<Kind>(*kind);
     reader.set_what(str("a light of kind '", kKinds[*kind], "'"));
     read_color(reader, light);

@@ -13,8 +13,8 @@ const std::vector<std::string_view> kModels{"fiber", "lobe_fiber", "hair", "surf
 constexpr Range kTiltDeg{.least = -45.0, .most = 45.0};
 constexpr Range kWidthDeg{.least = 0.0, .most = 180.0, .above = true};
 
-/// The two lobes must not send out more than comes in: from a fiber that makes light, paths never end
-/// and brightness has no bound. A key that is absent counts with its default.
+/// The two lobes must not emit more light than comes in: with a fiber that creates light, paths
+/// never end and brightness has no bound. An absent key counts with its default value.
 void check_lobe_energy(const TableReader& reader, const ScatterMaterial& m) {
     constexpr double kRounding = 1e-4; // of colours given to four decimals
     constexpr std::array<const char*, 3> kChannels{"red", "green", "blue"};
@@ -53,7 +53,7 @@ void read_hair(TableReader& reader, ScatterMaterial& m) {
     for (const char* key : {"absorption", "melanin", "color"}) {
         if (!reader.has(key)) continue;
         if (++given == 2) {
-            reader.problem(key, "'absorption', 'melanin' and 'color' say the same thing",
+            reader.problem(key, "'absorption', 'melanin' and 'color' define the same thing",
                            "keep one");
         }
     }
@@ -91,7 +91,7 @@ ScatterMaterial read_material(TableReader& reader) {
     ScatterMaterial m;
     reader.require("model", "write 'model = \"fiber\"', or lobe_fiber, hair, surface, microflake");
     const std::optional<std::size_t> model = reader.choose("model", kModels);
-    if (!model) return m; // which keys there are depends on it
+    if (!model) return m; // the allowed keys depend on it
     reader.set_what(str("a material of model '", kModels[*model], "'"));
     switch (*model) {
     case 0:

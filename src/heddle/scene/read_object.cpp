@@ -48,7 +48,7 @@ void read_generate(TableReader& parent, SceneObject& object) {
     }
 }
 
-/// A preset's name, or the path of a file.
+/// Reads the name of a preset or the path of a file.
 void read_yarn_name(TableReader& reader, SceneObject& object) {
     std::string yarn;
     reader.text("yarn", yarn);

@@ -16,14 +16,14 @@ namespace {
 using scene_form::MaterialUse;
 using scene_form::TableReader;
 
-/// A scene is written by people or made by a script; a larger file is something else.
+/// Scenes are written by people or scripts; a larger file is of another kind.
 constexpr std::uint64_t kMostBytes = std::uint64_t{64} << 20;
 constexpr std::size_t kMostDepth = 32;
 
-/// A scene while its files are read.
+/// A scene, while its files are read.
 class SceneDraft {
 public:
-    /// The main file; its absence is an Error of its own.
+    /// Reads the main file; if it is missing, that Error is thrown at once.
     void read_main(const std::string& path) { read_text(path, read_whole_file(path, kMostBytes)); }
     [[nodiscard]] Scene finish();
 
@@ -37,10 +37,10 @@ private:
 
     Scene scene_;
     Problems problems_;
-    std::map<std::string, Place> defined_; ///< "material 'cotton'": where
+    std::map<std::string, Place> defined_; ///< "material 'cotton'": where it is defined
     std::vector<MaterialUse> uses_;
-    std::vector<std::string> open_; ///< files being read, canonical paths
-    std::set<std::string> read_;    ///< files read, which a second include does not read again
+    std::vector<std::string> open_; ///< files that are being read, canonical paths
+    std::set<std::string> read_;    ///< files that were read, which a second include skips
 };
 
 std::string canonical(const std::string& path) {
@@ -48,7 +48,7 @@ std::string canonical(const std::string& path) {
     return std::filesystem::weakly_canonical(path, ignored).string();
 }
 
-/// False, and a problem, where the same thing was defined before.
+/// Returns false and adds a problem if the same thing was defined before.
 bool SceneDraft::define(const std::string& what, const Place& place) {
     const auto [at, fresh] = defined_.emplace(what, place);
     if (!fresh) {

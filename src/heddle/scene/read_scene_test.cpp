@@ -11,7 +11,7 @@ namespace {
 using testing::read_text;
 using testing::TempFolder;
 
-/// The example of docs/scene.md.
+/// The example in docs/scene.md.
 std::string example() {
     const std::string page = testing::slurp(HEDDLE_SOURCE_DIR "/docs/scene.md");
     const std::size_t begin = page.find("```toml\n") + 8;

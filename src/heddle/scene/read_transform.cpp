@@ -9,7 +9,7 @@
 namespace heddle::scene_form {
 namespace {
 
-/// Of the product of the axes' lengths: below it, the volume that a unit cube is mapped to is noise.
+/// Relative to the product of the axes' lengths; a smaller volume of the mapped unit cube is noise.
 constexpr double kSingular = 1e-9;
 
 /// Rodrigues' rotation.
@@ -33,7 +33,7 @@ Affine read_rotate(TableReader& reader) {
         return {};
     }
     const Vec3d unit = normalize(axis * (1.0 / largest));
-    // quarter turns are exact
+    // multiples of a quarter turn are exact
     const double degrees = std::remainder((*v)[3], 360.0);
     Affine r = rotation(unit, degrees * (std::numbers::pi / 180.0));
     if (std::remainder(degrees, 90.0) == 0.0) {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-/// One reader for each kind of table in a scene file; docs/scene.md lists their keys. What is wrong
-/// goes to the reader's problems; the result is of use when there are none.
+/// One reader for each kind of table in a scene file; docs/scene.md lists their keys. Problems are
+/// added to those of the reader; the result is only valid if there are none.
 namespace heddle::scene_form {
 
 [[nodiscard]] SceneCamera read_camera(TableReader& reader);
@@ -16,10 +16,10 @@ void read_film(TableReader& reader, Scene& scene);
 [[nodiscard]] SceneLight read_light(TableReader& reader);
 [[nodiscard]] ScatterMaterial read_material(TableReader& reader);
 
-/// The map of an object or instance: matrix, or scale, then rotate, then translate.
+/// Reads the transform of an object or instance: matrix, or scale, then rotation, then translation.
 [[nodiscard]] Affine read_transform(TableReader& reader);
 
-/// A material that an object names, to be looked up when all files are read.
+/// A material that an object names; it is looked up after all files are read.
 struct MaterialUse {
     Place place;
     std::string name;

@@ -13,7 +13,7 @@ using testing::TempFolder;
 
 struct Case {
     std::string text;
-    std::string expected; ///< in the message
+    std::string expected; ///< expected in the message
 };
 
 void expect_all(const std::vector<Case>& cases) {
@@ -25,7 +25,7 @@ void expect_all(const std::vector<Case>& cases) {
     }
 }
 
-/// An object that has nothing wrong with it, then `keys`.
+/// An object without problems, then `keys`.
 std::string object_with(const std::string& keys) {
     return "[object.a]\ngenerate = { kind = \"plain\" }\n" + keys + "\n";
 }
@@ -128,7 +128,7 @@ TEST(SceneProblems, LobesThatSendOutMoreThanComesInAreRefused) {
          "scene.toml:3: 'color_r' and 'color_tt' sum to 1.988 in red (0.989 + 0.999)"},
         {material("lobe_fiber", "color_r = [0, 0, 0.4]\ncolor_tt = 0.6002"),
          "sum to 1.0002 in blue"},
-        // beside the defaults, which are 0.1 and 0.6
+        // with the defaults, which are 0.1 and 0.6
         {material("lobe_fiber", "color_tt = [0, 0, 1]"), "scene.toml:3: 'color_r' and 'color_tt' "
                                                          "sum to 1.1 in blue (0.1 + 1)"},
         {material("lobe_fiber", "color_r = 0.5"), "scene.toml:3: 'color_r' and 'color_tt' sum to "

@@ -187,7 +187,7 @@ void TableReader::path(std::string_view key,
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(found, ignored)) {
         problem(key, str("'", key, "': no file '", found, "'"),
-                "name one that is there, relative to the scene file");
+                "name an existing file, relative to the scene file");
         return;
     }
     out = std::move(found);

@@ -14,13 +14,13 @@
 
 namespace heddle::scene_form {
 
-/// Which numbers a key takes. The ends of the default are a float's, so that what is read can be
-/// stored as one.
+/// The numbers that a key accepts. By default they are limited to those of a float, so that they
+/// can be stored in one.
 struct Range {
     double least = -static_cast<double>(std::numeric_limits<float>::max());
     double most = static_cast<double>(std::numeric_limits<float>::max());
-    bool above = false; ///< `least` itself is not allowed
-    bool below = false; ///< `most` itself is not allowed
+    bool above = false; ///< `least` itself is excluded
+    bool below = false; ///< `most` itself is excluded
 
     [[nodiscard]] bool holds(double x) const; ///< false for NaN
 };
@@ -29,9 +29,9 @@ inline constexpr Range kPositive{.least = 0.0, .above = true};
 inline constexpr Range kNotNegative{.least = 0.0};
 inline constexpr Range kUnit{.least = 0.0, .most = 1.0};
 
-/// Reads a table of a scene file: every function takes one key. A value of the wrong type or out of
-/// range becomes a problem and leaves `out` as it was, as an absent key does. Keys that nothing
-/// asked for are problems when the reader ends (`finish`), with the nearest of those asked for.
+/// Reads a table of a scene file; every function reads one key. A value of the wrong type or out of
+/// range becomes a problem and leaves `out` unchanged, as an absent key does. `finish` reports keys
+/// that nobody read, with the nearest name of those that were.
 class TableReader {
 public:
     /// @param what  for messages: "a light of kind 'point'"
@@ -40,11 +40,11 @@ public:
     [[nodiscard]] bool has(std::string_view key) const { return table_.contains(key); }
     [[nodiscard]] const Place& place() const { return place_; }
     [[nodiscard]] Problems& problems() const { return problems_; }
-    /// Of the key, or of the table where it has none.
+    /// The location of the key, or that of the table if the key is absent.
     [[nodiscard]] Place place_of(std::string_view key) const;
     void set_what(std::string what) { what_ = std::move(what); }
     void problem(std::string_view key, const std::string& what, const std::string& fix) const;
-    /// Adds a problem unless the key is there.
+    /// Adds a problem if the key is absent.
     void require(std::string_view key, const std::string& fix) const;
 
     void number(std::string_view key, double& out, const Range& range = kAnyNumber);
@@ -54,28 +54,28 @@ public:
     void integer(std::string_view key, std::int64_t& out, std::int64_t least, std::int64_t most);
     void integer(std::string_view key, int& out, std::int64_t least, std::int64_t most);
     void vector(std::string_view key, Vec3d& out);
-    /// A number, which stands for three, or three.
-    /// @return  false where it became a problem
+    /// Reads three numbers, or one that stands for all three.
+    /// @return  false if it became a problem
     bool color(std::string_view key, Vec3f& out, const Range& range = kNotNegative);
-    /// `counts`: how many numbers are allowed; a bare number is a list of one.
+    /// `counts`: the allowed numbers of numbers; a bare number is a list of one.
     [[nodiscard]] std::optional<std::vector<double>> numbers(std::string_view key,
                                                              std::initializer_list<int> counts,
                                                              const Range& range = kAnyNumber);
     void text(std::string_view key, std::string& out);
-    /// A path, made relative to the scene file; a problem where no file is there, or where it ends
-    /// in none of `suffixes` (lower case, with the dot; empty: any).
+    /// Reads a path and makes it relative to the scene file; a problem if there is no such file, or
+    /// if its suffix is not one of `suffixes` (lower case, with the dot; empty: any).
     void
     path(std::string_view key, std::string& out, std::initializer_list<std::string_view> suffixes);
-    /// Index of the name among `names`.
+    /// The index of the value in `names`.
     [[nodiscard]] std::optional<std::size_t> choose(std::string_view key,
                                                     const std::vector<std::string_view>& names);
     [[nodiscard]] const toml::table* table(std::string_view key);
-    /// The tables of an array of tables.
+    /// The tables in an array of tables.
     [[nodiscard]] std::vector<const toml::table*> tables(std::string_view key);
-    /// Texts of an array of texts.
+    /// The texts in an array of texts.
     [[nodiscard]] std::vector<std::string> texts(std::string_view key);
 
-    /// Once, last: the keys that nothing asked for become problems.
+    /// Call it once, at the end: it adds a problem for each key that was not read.
     void finish() const;
 
 private:
@@ -90,10 +90,10 @@ private:
     std::vector<std::string> known_;
 };
 
-/// Where a node stands.
+/// The location of a node.
 [[nodiscard]] Place place_of(const toml::node& node, const std::string& path);
 
-/// `text` relative to the folder of the scene file `from`.
+/// `text` resolved relative to the folder of the scene file `from`.
 [[nodiscard]] std::string resolve_path(const std::string& text, const std::string& from);
 
 } // namespace heddle::scene_form

@@ -15,7 +15,7 @@ inline Scene read_text(const TempFolder& folder, const std::string& text) {
     return read_scene(folder.write("scene.toml", text));
 }
 
-/// The lines of the Error that reading `text` throws, without the folder's name; empty: none.
+/// The lines of the Error that reading `text` throws, without the name of the folder; empty: none.
 inline std::string problems_of(const TempFolder& folder, const std::string& text) {
     const std::optional<Error> e = error_of([&] { static_cast<void>(read_text(folder, text)); });
     if (!e) return {};

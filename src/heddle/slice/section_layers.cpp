@@ -15,20 +15,20 @@
 namespace heddle::slice {
 namespace {
 
-/// A fiber's radius has at least this many texels: interpolated distances are then right to 1/300.
+/// The least texels of a fiber's radius; interpolated distances then err by at most 1/300.
 constexpr float kTexelsOfRadius = 6.0f;
 constexpr float kLeastSize = 64.0f;
 constexpr float kMostSize = 1024.0f;
 
-/// Where the fibers of a section lie, model units.
+/// The positions of the fibers of a section, model units.
 struct Discs {
     std::vector<float> x, y;
     std::vector<float> across_x, across_y; ///< unit direction in which twist tilts the fiber
-    std::vector<float> cosine; ///< of the tilt: the section of a round fiber is longer by it
+    std::vector<float> cosine; ///< of the tilt: the section of a fiber is longer by 1 / cosine
     std::vector<std::uint32_t> color;
     float radius = 0.0f;
     float extent = 0.0f;
-    const Texture* image = nullptr; ///< of a slice
+    const Texture* image = nullptr; ///< image of a slice
     float half = 0.0f;              ///< the image fills [-half, half]^2
 };
 
@@ -108,10 +108,10 @@ SectionLayer draw(const Discs& discs, std::int32_t size) {
     return layer;
 }
 
-/// What all layers are drawn from.
+/// The input of all layers.
 struct Sections {
     std::vector<Discs> discs;
-    std::vector<std::uint32_t> first; ///< as SectionLayers has it
+    std::vector<std::uint32_t> first; ///< as in SectionLayers
     std::int32_t size = 0;
 };
 

@@ -14,7 +14,7 @@ TEST(SectionLayers, AreDrawnAnewOnlyWhereTheKindsOfYarnsChange) {
     SectionLayers layers = build_sections(yarn, 1);
     for (Vec3f& p : yarn.curves[0].points) p.x += 1.0f;
     EXPECT_FALSE(update_sections(layers, yarn, 1));
-    EXPECT_TRUE(update_sections(layers, yarn, 2)); // other places of fibers
+    EXPECT_TRUE(update_sections(layers, yarn, 2)); // other positions of fibers
     yarn.yarns[0].slice.texels[3] ^= 1u;
     EXPECT_TRUE(update_sections(layers, yarn, 2));
     yarn.yarns[0].twist += 0.1f;

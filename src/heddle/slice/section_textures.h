@@ -6,7 +6,7 @@
 
 namespace heddle::slice {
 
-/// The images of all sections in the driver's memory, as arrays of layers. Needs a current Context.
+/// The images of all sections in the driver's memory, as texture arrays. Needs a current Context.
 class SectionTextures {
 public:
     /// @throws Error  OutOfMemory
@@ -15,7 +15,7 @@ public:
     SectionTextures(const SectionTextures&) = delete;
     SectionTextures& operator=(const SectionTextures&) = delete;
 
-    /// Distances as texture unit 0, colours as unit 1.
+    /// Binds distances to texture unit 0 and colours to unit 1.
     void bind() const;
 
 private:

@@ -4,12 +4,12 @@
 
 namespace heddle::slice {
 
-/// Before all other GLSL of a compute shader that draws slabs: what a vertex shader hands to its
-/// fragments are then globals.
+/// Comes before all other GLSL of a compute shader that draws slabs: the values that a vertex
+/// shader passes to its fragments become globals.
 inline constexpr std::string_view kSlabsInComputeGlsl = "#define SLABS_IN_COMPUTE\n";
 
-/// GLSL, vertex and compute: the stretch between two slices, as its pixels need it. Needs
-/// kSpanGlsl.
+/// GLSL, vertex and compute: the slab between two slices, with the values that its pixels need.
+/// Needs kSpanGlsl.
 inline constexpr std::string_view kStretchGlsl = R"(
 layout(std430, binding = 2) readonly buffer List { uint list[]; };
 #ifdef SLABS_IN_COMPUTE
@@ -25,7 +25,7 @@ TO_PIXELS vec3 sizes;                // extent and fiber's radius, model units; 
 
 struct Stretch { Slice a, b; vec3 along; float reach; };
 
-// The stretch after slice `number`, handed to its pixels.
+// Loads the slab after slice `number` and sets the values for its pixels.
 Stretch load_slab(uint number) {
     slab = number;
     Slice a = slices[slab];
@@ -52,8 +52,8 @@ vec2 corner() {
 #endif
 )";
 
-/// GLSL, fragment and compute: a ray cut to a stretch; `local_at` is where it passes the section.
-/// Needs kSpanGlsl, in compute kStretchGlsl too.
+/// GLSL, fragment and compute: a ray clipped to a slab; `local_at` maps a point of it to the
+/// section. Needs kSpanGlsl, in compute also kStretchGlsl.
 inline constexpr std::string_view kSlabGlsl = R"(
 layout(binding = 0) uniform sampler2DArray section_distance;
 layout(binding = 1) uniform sampler2DArray section_color;
@@ -67,21 +67,21 @@ flat in vec3 sizes;
 
 vec3 along;       // unit, from a to b
 float chord;      // units, from a to b
-float bend;       // |tangent of b - that of a|
-vec3 bulge;       // the centreline's way off the chord is f (1 - f) times this
-vec3 ray;         // the place at t = 0
-vec3 way;         // unit
+float bend;       // |tangent of b - tangent of a|
+vec3 bulge;       // the centreline is f (1 - f) times this off the chord
+vec3 ray;         // the point at t = 0
+vec3 way;         // unit, along the ray
 vec2 plane_a;     // height over a's plane is plane_a.x + plane_a.y t
 vec2 plane_b;
 
-// A place on the section (`at`: model units), and how far it is from slice a to b (`part`: 0 to 1).
+// A point on the section (`at`: model units), and the fraction of the slab before it (`part`).
 struct Local { vec2 at; float scale; float part; float rise; vec3 normal, binormal; };
 
 vec2 plane_of(vec3 center, vec3 tangent) {
     return vec2(dot(tangent, ray - center), dot(tangent, way));
 }
 
-// Cuts [range.x, range.y) to where the height over a plane is >= 0, or to where it is below.
+// Clips [range.x, range.y) to where the height above a plane is >= 0, or to where it is negative.
 void cut(inout vec2 range, vec2 plane, bool above) {
     if (plane.y == 0.0) {
         if ((plane.x >= 0.0) != above) range.y = range.x;
@@ -92,7 +92,7 @@ void cut(inout vec2 range, vec2 plane, bool above) {
     else range.y = min(range.y, t);
 }
 
-// The ray's part between the two slices and near their yarn.
+// The part of the ray that is between the two slices and near their yarn.
 vec2 range_of_slab() {
     vec3 center = 0.5 * (place_a.xyz + place_b.xyz);
     float far = length(vec2(sizes.z, 0.5 * chord + sizes.z * bend)) + 0.01;
@@ -106,13 +106,13 @@ vec2 range_of_slab() {
     return range;
 }
 
-// The ray from `from` on.
+// Sets the ray that starts at `from`.
 void start(vec3 from, vec3 toward) {
     vec3 d = place_b.xyz - place_a.xyz;
     chord = length(d);
     along = chord > 0.0 ? d / chord : tangent_a.xyz;
     bend = length(tangent_b.xyz - tangent_a.xyz);
-    bulge = 0.5 * chord * (tangent_a.xyz - tangent_b.xyz); // Hermite's curve of both tangents
+    bulge = 0.5 * chord * (tangent_a.xyz - tangent_b.xyz); // the Hermite curve of both tangents
     ray = from;
     way = toward;
     plane_a = plane_of(place_a.xyz, tangent_a.xyz);
@@ -137,7 +137,7 @@ Local local_at(float t) {
 
 vec3 layer_place(vec2 at) { return vec3(0.5 + 0.5 * at / sizes.x, normal_a.w); }
 
-// Model units, to the nearest fiber's surface; below 0 inside. Past the image: at least so much.
+// Distance to the nearest fiber, model units; < 0 inside. Outside the image a lower bound.
 float distance_at(vec2 at) {
     float d = textureLod(section_distance, layer_place(at), 0.0).x;
     float past = max(abs(at.x), abs(at.y)) - sizes.x;

@@ -4,8 +4,8 @@
 
 namespace heddle::slice {
 
-/// GLSL: a placed slice as buffers hold it (PlacedSlice), and the direction of the fiber through a
-/// place of it.
+/// GLSL: a placed slice as stored in buffers (PlacedSlice), and the direction of the fiber through
+/// a point of it.
 inline constexpr std::string_view kSliceGlsl = R"(
 struct Slice {
     vec3 center; float scale;
@@ -21,15 +21,15 @@ vec3 any_perpendicular(vec3 n) { // [Duff 2017]
     return vec3(1.0 + s * n.x * n.x * a, s * n.x * n.y * a, -s * n.x);
 }
 
-// Difference of a fiber's places on two slices that are `turn` apart, one half a step before `at`
-// and one half a step behind it: eq. 1 of [LopezMoreno17], which looks one whole step back from the
-// second of the two, written for the place between them.
+// The difference of a fiber's positions on two slices that are `turn` apart, half a step before and
+// half a step after `at`: eq. 1 of [LopezMoreno17], which looks back one whole step from the second
+// position, written for the middle of the two.
 vec2 fiber_step(vec2 at, float turn) {
     return 2.0 * sin(0.5 * turn) * vec2(-at.y, at.x);
 }
 
-// Unit direction of the fiber at `at` (units, in the section's frame), where slices are `rise`
-// apart.
+// The unit direction of the fiber at `at` (units, in the frame of the section), for slices that are
+// `rise` apart.
 vec3 fiber_direction(vec2 at, float turn, float rise, vec3 normal, vec3 binormal, vec3 tangent) {
     vec2 step_in_plane = fiber_step(at, turn);
     vec3 d = step_in_plane.x * normal + step_in_plane.y * binormal + max(rise, 1e-6) * tangent;
@@ -37,11 +37,11 @@ vec3 fiber_direction(vec2 at, float turn, float rise, vec3 normal, vec3 binormal
 }
 )";
 
-/// GLSL: placed slices, and the stretch between two of them. Needs kSliceGlsl. Binding 0.
+/// GLSL: placed slices, and the slab between two of them. Needs kSliceGlsl. Binding 0.
 inline constexpr std::string_view kSpanGlsl = R"(
 layout(std430, binding = 0) readonly buffer Slices { Slice slices[]; };
 
-// Half the length of the stretch from slice a to b, with what its sections reach past it in a bend.
+// Half the length of the slab from slice a to b, including what a bend adds to its sections.
 float half_length(Slice a, Slice b, float reach) {
     return 0.5 * length(b.center - a.center) + reach * length(b.tangent - a.tangent);
 }
@@ -61,8 +61,8 @@ const uint kClosed = 1u;
 const uint kLinear = 2u;
 const uint kBSpline = 4u;
 const uint kColored = 8u;
-struct Knot { vec3 normal; uint before; }; // before: slices of its curve up to it
-struct Course { double length; double turns; double slices; double most; }; // most: wanted of a span
+struct Knot { vec3 normal; uint before; }; // before: number of slices of the curve before it
+struct Course { double length; double turns; double slices; double most; }; // of a span
 
 layout(std430, binding = 0) readonly buffer Points { vec4 points[]; };
 layout(std430, binding = 1) readonly buffer Colors { uint colors[]; };
@@ -78,7 +78,7 @@ uint point_of(Curve curve, uint i) {
     return curve.first_point + ((curve.flags & kClosed) != 0u ? i % curve.points : i);
 }
 
-// The point at a span's start or, one further, its end.
+// The point at the start of a span; the next one is at its end.
 uint knot_point(Curve curve, uint knot) {
     bool plain = (curve.flags & (kClosed | kLinear)) != 0u;
     return point_of(curve, plain ? knot : knot + 1u);
@@ -113,20 +113,20 @@ vec3 tangent_at(Cubic c, float t) {
 }
 )";
 
-/// GLSL: one curve an item: lengths, counts of slices and frames at its knots, one after the other,
-/// as many as kSpansAtOnce in one dispatch: software drivers end a shader's loops after 65535
-/// turns, without a word.
+/// GLSL, one curve per item: lengths, numbers of slices and frames at its knots, in sequence. One
+/// dispatch does kSpansAtOnce spans, because software drivers silently end a shader's loop after
+/// 65535 iterations.
 inline constexpr std::string_view kCourseGlsl = R"(
 layout(std430, binding = 3) buffer Courses { Course courses[]; };
 layout(std430, binding = 4) buffer Lengths { double knot_length[]; };
 layout(std430, binding = 5) buffer Frames { Knot knots[]; };
 uniform uint curve_count;
-uniform uint first_span; // of kSpansAtOnce that are measured now
+uniform uint first_span; // first of the kSpansAtOnce that are measured now
 
 const uint kSpansAtOnce = 16384u;
 const float kMostBend = 0.2;  // radians between neighbours
 const float kMostTurn = 0.4;  // radians of twist
-const double kMostSlices = 1.0e6; // of a span: more are refused
+const double kMostSlices = 1.0e6; // per span: more are refused
 
 double arc_length(Cubic c) { // five-point Gauss-Legendre on the speed
     const float x[5] = float[](0.046910077, 0.23076534, 0.5, 0.76923466, 0.95308992);
@@ -147,7 +147,7 @@ float bend_of(Cubic c) {
     return sum;
 }
 
-// Carries a normal from one place to the next without turn about the tangent. [Wang 2008]
+// Carries a normal from one point to the next without rotation about the tangent. [Wang 2008]
 vec3 transport(vec3 normal, vec3 p0, vec3 t0, vec3 p1, vec3 t1) {
     vec3 v1 = p1 - p0;
     float c1 = dot(v1, v1);
@@ -166,7 +166,7 @@ void main() {
         courses[item()] = Course(0.0LF, 0.0LF, 0.0LF, 0.0LF);
         return;
     }
-    if (first_span >= curve.spans) return; // all of it is measured
+    if (first_span >= curve.spans) return; // the curve is done
     float head = curve.yarn_radius > 0.0 ? curve.yarn_radius
                                          : points[knot_point(curve, 0u)].w;
     double per_unit = double(curve.model_radius / max(head, 1e-30));
@@ -176,7 +176,7 @@ void main() {
     double sum = 0.0LF;
     double slices = 0.0LF;
     double wanted = 0.0LF;
-    if (first_span > 0u) { // from where the part before it ended
+    if (first_span > 0u) { // continues from the end of the previous part
         normal = knots[curve.first_knot + first_span].normal;
         sum = knot_length[curve.first_knot + first_span];
         slices = courses[item()].slices - 1.0LF;
@@ -204,7 +204,7 @@ void main() {
     if (end < curve.spans) return;
     vec3 start = knots[curve.first_knot].normal;
     double turns = double(curve.twist) / 6.283185307179586LF * per_unit; // per unit
-    if ((curve.flags & kClosed) != 0u && sum > 0.0LF) { // whole turns, and what closes the frame
+    if ((curve.flags & kClosed) != 0u && sum > 0.0LF) { // whole turns, and closing the frame
         float closing = atan(dot(cross(normal, start), tangent), dot(normal, start)) / 6.2831853;
         turns = (floor(turns * sum + 0.5LF) + double(closing)) / sum;
     }
@@ -212,7 +212,7 @@ void main() {
 }
 )";
 
-/// GLSL: one slice an item.
+/// GLSL, one slice per item: places it.
 inline constexpr std::string_view kPlaceGlsl = R"(
 layout(std430, binding = 3) readonly buffer Courses { Course courses[]; };
 layout(std430, binding = 4) readonly buffer Lengths { double knot_length[]; };

@@ -11,10 +11,10 @@ namespace heddle::slice {
 namespace {
 
 constexpr double kMostSlices = 4294967295.0; ///< slices are numbered by 32 bits
-constexpr double kMostOfSpan = 1.0e6;        ///< these two: as kCourseGlsl has them
+constexpr double kMostOfSpan = 1.0e6;        ///< this and the next: as in kCourseGlsl
 constexpr std::uint32_t kSpansAtOnce = 16384;
 
-/// As kCurveGlsl has it.
+/// As in kCurveGlsl.
 struct CurveRow {
     std::uint32_t first_point, points, spans, flags;
     std::uint32_t first_knot, layer, pad0, pad1;
@@ -32,7 +32,7 @@ struct PointRow {
     float radius;
 };
 
-/// What is uploaded: all curves as one list.
+/// The tables that are uploaded: all curves as one list.
 struct CurveTables {
     std::vector<PointRow> points;
     std::vector<std::uint32_t> colors;
@@ -46,7 +46,7 @@ std::uint32_t flags_of(const CurveSet& set, std::size_t curve) {
            (set.basis == Basis::CubicBSpline ? 4u : 0u) | (set.color.empty() ? 0u : 8u);
 }
 
-/// @param lattice  slabs are followed by rays on it: long ones would be most of a block
+/// @param lattice  rays follow slabs on the lattice: long slabs would fill most of a block
 float spacing_of(double radius_units, double asked, bool lattice) {
     constexpr double kMostOnLattice = 16.0;
     if (asked > 0.0) return static_cast<float>(asked);
@@ -54,7 +54,7 @@ float spacing_of(double radius_units, double asked, bool lattice) {
     return static_cast<float>(lattice ? std::min(half, kMostOnLattice) : half);
 }
 
-/// Of slices, a subvoxel: past it no lattice shows what turns.
+/// Radians per subvoxel: a lattice does not resolve more.
 constexpr double kMostTwist = 3.141592653589793;
 
 void check_twist(const YarnType& yarn, double radius_units) {
@@ -68,7 +68,7 @@ void check_twist(const YarnType& yarn, double radius_units) {
         "use smaller voxels, or a smaller twist");
 }
 
-/// Of a curve at its start, scene units.
+/// The radius of a curve at its start, scene units.
 double head_radius(const CurveSet& set, const YarnType* yarn, std::size_t curve) {
     const float fixed = yarn == nullptr ? 0.0f : yarn->radius;
     return static_cast<double>(fixed > 0.0f ? fixed : set.radius_at(set.first[curve]));
@@ -119,7 +119,7 @@ void add_set(CurveTables& out,
     }
 }
 
-/// The curves [first, end) of a chunk, and its slices.
+/// The curves [first, end) of a chunk, and its number of slices.
 struct CurveRun {
     std::size_t first = 0, end = 0;
     std::uint64_t slices = 0;
@@ -162,7 +162,7 @@ void check_count(const std::vector<CourseRow>& courses, double most) {
                 "use larger voxels, a smaller twist, or --backend sample");
 }
 
-/// Of a curve, 1 at least.
+/// The most spans of a curve, at least 1.
 std::uint32_t most_spans(const std::vector<CurveRow>& curves) {
     std::uint32_t most = 1;
     for (const CurveRow& c : curves) most = std::max(most, c.spans);
@@ -186,7 +186,7 @@ PlacePrograms::PlacePrograms()
 
 std::int64_t
 estimate_slices(const Geometry& geometry, const LatticeUnits& units, const PlaceOptions& options) {
-    constexpr double kMostTurn = 0.4; // as kCourseGlsl has it
+    constexpr double kMostTurn = 0.4; // as in kCourseGlsl
     double count = 0.0;
     for (const CurveSet& set : geometry.curves) {
         const YarnType* yarn = geometry.yarn_of(set);

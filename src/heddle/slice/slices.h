@@ -12,57 +12,57 @@
 
 namespace heddle::slice {
 
-/// A slice on its yarn's centreline, as the driver holds it (slice_glsl.h).
+/// A slice that is placed on its yarn's centreline, as the driver stores it (slice_glsl.h).
 struct PlacedSlice {
-    Vec3f center;              ///< units, from the origin
+    Vec3f center;              ///< units, relative to the origin
     float scale = 0.0f;        ///< units per model unit
     Vec3f tangent;             ///< unit
-    float turn = 0.0f;         ///< radians to the next slice, about the tangent
-    Vec3f normal;              ///< unit: the section's x
-    std::uint32_t layer = 0;   ///< of SectionLayers
-    std::uint32_t color = 0;   ///< multiplies the section's: linear RGB, 8 bits each
+    float turn = 0.0f;         ///< twist to the next slice about the tangent, radians
+    Vec3f normal;              ///< unit: the x axis of the section
+    std::uint32_t layer = 0;   ///< index into SectionLayers
+    std::uint32_t color = 0;   ///< multiplies the colour of the section: linear RGB, 8 bits each
     float extent = 0.0f;       ///< model units
     float fiber_radius = 0.0f; ///< model units
-    std::uint32_t flags = 0;   ///< 1: the last of its yarn
+    std::uint32_t flags = 0;   ///< 1: last slice of its yarn
 };
-static_assert(sizeof(PlacedSlice) == 64, "as slice_glsl.h has it");
+static_assert(sizeof(PlacedSlice) == 64, "as in slice_glsl.h");
 
-/// Slices that one buffer holds: those of whole curves of one material.
+/// The slices in one buffer: those of whole curves of one material.
 struct SliceChunk {
     opengl::Buffer slices;
     std::uint32_t count = 0;
-    std::uint32_t slabs = 0; ///< stretches between two slices of a yarn
-    std::uint32_t first = 0; ///< number of its first slice over all chunks
+    std::uint32_t slabs = 0; ///< slabs between two slices of a yarn
+    std::uint32_t first = 0; ///< index of its first slice among all chunks
     std::uint32_t material = 0;
 };
 
-/// The programs that place slices: compiled once where slices are placed again and again.
+/// The programs that place slices: compiled once if slices are placed repeatedly.
 struct PlacePrograms {
     opengl::Program measure, place;
     PlacePrograms();
 };
 
-/// How slices are placed.
+/// Options for placing slices.
 struct PlaceOptions {
-    Vec3i origin{};           ///< voxel whose corner all places are relative to
-    double spacing = 0.0;     ///< units, at most; 0: half of the yarn's radius, 1 at
-                              ///< least, on a lattice at most 16
-    double most_slices = 0.0; ///< over all; 0: 2^32 - 1
-    /// of a chunk; 0, or more than that: what one buffer of the driver holds
+    Vec3i origin{};           ///< voxel whose corner is the origin of all positions
+    double spacing = 0.0;     ///< largest distance, units; 0: half of the yarn's radius, at
+                              ///< least 1, on a lattice at most 16
+    double most_slices = 0.0; ///< limit of their number; 0: 2^32 - 1
+    /// largest chunk; 0, or more than a buffer of the driver can hold: the size of that buffer
     std::int64_t chunk_bytes = 0;
-    bool lattice = true; ///< they are to be voxels: a twist that no lattice of these units shows is
+    bool lattice = true; ///< for voxels: a twist that a lattice of these units cannot resolve is
                          ///< refused
-    const PlacePrograms* programs = nullptr; ///< null: they are compiled for this call
+    const PlacePrograms* programs = nullptr; ///< null: compiled in this call
 };
 
-/// About how many slices place_slices would place: by chords between points, without what bends
-/// add.
+/// The approximate number of slices that place_slices would place, from the chords between points,
+/// without those that bends add.
 [[nodiscard]] std::int64_t
 estimate_slices(const Geometry& geometry, const LatticeUnits& units, const PlaceOptions& options);
 
-/// Resamples all curves on the driver: slices at most `spacing` apart, at most .2 radians of bend
-/// and .4 of twist between neighbours, frames carried along without turn and then twisted; over a
-/// closed yarn the twist is whole turns. One slice more than the spaces between them.
+/// Resamples all curves on the driver. Neighbouring slices are at most `spacing` apart, with at
+/// most 0.2 radians of bend and 0.4 of twist. Their frames are carried along without rotation and
+/// then twisted; a closed yarn is twisted by whole turns. There is one more slice than intervals.
 /// @throws Error  InvalidArgument: more slices than `most_slices`; OutOfMemory
 [[nodiscard]] std::vector<SliceChunk> place_slices(const opengl::Context& context,
                                                    const Geometry& geometry,
@@ -70,7 +70,7 @@ estimate_slices(const Geometry& geometry, const LatticeUnits& units, const Place
                                                    const LatticeUnits& units,
                                                    const PlaceOptions& options);
 
-/// The slices of a chunk, for tests.
+/// Reads back the slices of a chunk, for tests.
 [[nodiscard]] std::vector<PlacedSlice> read_slices(const SliceChunk& chunk);
 
 } // namespace heddle::slice

@@ -64,7 +64,7 @@ TEST(PlaceSlices, AYarnOfMorePointsThanOneDispatchMeasuresIsPlacedToItsEnd) {
     const std::vector<PlacedSlice> slices = place(geometry, units_of(0.05));
     ASSERT_GT(slices.size(), static_cast<std::size_t>(kPoints - 3));
     EXPECT_EQ(slices.back().flags, 1u);
-    const Vec3d end = to_double(points[kPoints - 2]); // the last but one: the last is a phantom
+    const Vec3d end = to_double(points[kPoints - 2]); // the last one only gives a tangent
     const Vec3d last = to_double(slices.back().center) * units_of(0.05).unit;
     EXPECT_LT(length(last - end), 1e-3);
     double farthest = 0.0;
@@ -91,7 +91,7 @@ TEST(PlaceSlices, LieOnTheCurveInEvenStepsWithFramesOfRightAngles) {
             EXPECT_NEAR(static_cast<double>(length(s.normal)), 1.0, 1e-5);
             EXPECT_NEAR(static_cast<double>(dot(s.tangent, s.normal)), 0.0, 1e-5);
             EXPECT_EQ(s.flags, i + 1 == slices.size() ? 1u : 0u);
-            double nearest = 1e9; // from the curve, sampled finely in double precision
+            double nearest = 1e9; // distance to the curve, sampled finely in double
             for (std::size_t k = 0; k < set.span_count(0); ++k) {
                 for (int j = 0; j <= 200; ++j) {
                     const Vec3d p = span_cubic(set, 0, k).at(j / 200.0) * (1.0 / units.unit);
@@ -102,7 +102,7 @@ TEST(PlaceSlices, LieOnTheCurveInEvenStepsWithFramesOfRightAngles) {
             if (i == 0) continue;
             const float step = length(s.center - slices[i - 1].center);
             EXPECT_GT(step, 0.2f);
-            EXPECT_LT(step, 9.0f); // half of 16 units, and what uneven speed adds
+            EXPECT_LT(step, 9.0f); // half of 16 units, plus uneven speed
         }
         EXPECT_LT(farthest, 0.3); // half a step of the fine sampling
     }
@@ -113,7 +113,7 @@ TEST(PlaceSlices, TwistByTheYarnsLengthInDoublePrecision) {
     yarn.twist = 0.7f;
     const LatticeUnits units = units_of(0.05);
     const std::vector<PlacedSlice> slices = place(straight_yarn({1.0f, 0.0f, 0.0f}, yarn), units);
-    const double per_unit = 0.7 * units.unit / 0.05; // of scale 1 model unit = .05
+    const double per_unit = 0.7 * units.unit / 0.05; // at a scale of 1 model unit = 0.05
     double worst = 0.0;
     for (const PlacedSlice& s : slices) {
         const double length = static_cast<double>(s.center.x - slices[0].center.x);
@@ -139,7 +139,7 @@ TEST(PlaceSlices, TwistClosesOverAClosedYarn) {
         for (std::size_t i = 0; i + 1 < slices.size(); ++i) {
             turned += static_cast<double>(slices[i].turn);
         }
-        const double length = 6.7; // of the ring, about
+        const double length = 6.7; // length of the ring, about
         EXPECT_NEAR(turned, static_cast<double>(twist) * length / 0.1, 6.3 + std::abs(turned) * .1);
     }
 }
@@ -193,7 +193,7 @@ void main() {
     buffer.read(std::as_writable_bytes(std::span(items)));
     for (const Item& i : items) {
         const double a = static_cast<double>(i.turn);
-        // the same fiber half a step on, from which eq. 1 looks back
+        // the same fiber half a step later, from where eq. 1 looks back
         const double x =
             std::cos(a / 2) * static_cast<double>(i.x) - std::sin(a / 2) * static_cast<double>(i.y);
         const double y =

@@ -8,11 +8,11 @@
 #include <cstdint>
 #include <utility>
 
-// Slice yarns, for the tests and the tables of bench/.
+// Slice yarns for the tests and the tables of bench/.
 
 namespace heddle::slice::test {
 
-/// A twisted slice of two plies, `fibers` in all.
+/// A twisted slice of two plies with `fibers` fibers in all.
 inline YarnType slice_yarn(float radius, int fibers = 90) {
     YarnType yarn;
     yarn.name = "two plies";
@@ -29,7 +29,7 @@ inline YarnType slice_yarn(float radius, int fibers = 90) {
     return make_slice(yarn, {.size = 128}).yarn;
 }
 
-/// Makes every curve of the geometry such a yarn.
+/// Makes every curve of the geometry this yarn.
 inline void set_yarn(Geometry& geometry, YarnType yarn) {
     geometry.yarns.assign(1, std::move(yarn));
     for (CurveSet& set : geometry.curves) set.yarn = 0;

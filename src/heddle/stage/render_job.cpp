@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <limits>
 
 namespace heddle {
@@ -55,6 +56,57 @@ bool is_done(const State& at, const Picture& picture, const RenderJob& job) {
     return job.noise > 0.0 && at.samples >= 4 && picture.noise() <= job.noise;
 }
 
+/// What all passes of a job share.
+struct Passes {
+    Stage& stage;
+    const PathOptions& options;
+    std::uint64_t seed;
+    Progress& progress;
+};
+
+/// Adds samples [from, until) to every pixel.
+void add_pass(const Passes& with, std::uint32_t from, std::uint32_t until, Picture& into) {
+    const auto pixels = static_cast<std::int64_t>(into.pixels.size());
+    with.progress.begin("render", "paths", pixels * (until - from));
+    render_pass(with.stage.scene(), with.stage.camera(), with.options, with.seed, until, into,
+                with.progress);
+}
+
+/// Reads the levels that are not there yet, then adds passes until the job is done.
+/// @param save  keeps the picture on the way; called now and then, and where it is cancelled
+void render_passes(const Passes& with,
+                   const RenderJob& job,
+                   Clock::time_point start,
+                   const std::function<void()>& save,
+                   Picture& picture,
+                   RenderOutcome& outcome) {
+    with.progress.begin("read levels", "levels", 1);
+    while (with.stage.load_next_level()) with.progress.check();
+    outcome.load_seconds = since(start) - outcome.first_picture_seconds;
+    State at;
+    at.samples = at.resumed = static_cast<std::uint32_t>(outcome.resumed_from);
+    Clock::time_point saved = Clock::now();
+    for (at.spent = since(start); !is_done(at, picture, job); at.spent = since(start)) {
+        const std::uint32_t until = next_target(at, picture, job);
+        const Clock::time_point began = Clock::now();
+        try {
+            add_pass(with, at.samples, until, picture);
+        } catch (const Error& e) {
+            if (e.code() == ErrorCode::Cancelled && at.samples > 0) save();
+            throw;
+        }
+        outcome.render_seconds += since(began);
+        at.samples = until;
+        at.each = outcome.render_seconds / (at.samples - at.resumed);
+        if (since(saved) > kSaveEvery && at.samples < job.samples) {
+            save();
+            saved = Clock::now();
+        }
+    }
+    outcome.samples = at.samples;
+    outcome.noise = picture.noise();
+}
+
 bool is_half(const std::string& channel) {
     return channel != "depth" && channel != "samples" && channel != "variance" &&
            channel != "material";
@@ -88,50 +140,32 @@ RenderOutcome render_to_file(Stage& stage,
         picture = read_checkpoint(checkpoint, job.scene_hash, width, height);
         outcome.resumed_from = picture.pixels.empty() ? 0 : picture.pixels.front().samples;
     }
-    State at;
-    at.samples = at.resumed = static_cast<std::uint32_t>(outcome.resumed_from);
-    const auto pass = [&](Picture& into, std::uint32_t from, std::uint32_t until) {
-        const auto pixels = static_cast<std::int64_t>(into.pixels.size());
-        progress.begin("render", "paths", pixels * (until - from));
-        render_pass(stage.scene(), stage.camera(), options, seed, until, into, progress);
-    };
+    if (outcome.resumed_from == 0) {
+        Picture coarse(width, height);
+        add_pass({stage, options, seed, progress}, 0, 1, coarse);
+        write_picture(coarse, job);
+    }
+    outcome.first_picture_seconds = since(start);
     const auto save = [&] {
         write_picture(picture, job);
         write_checkpoint(checkpoint, job.scene_hash, picture);
     };
-    if (at.samples == 0) {
-        Picture coarse(width, height);
-        pass(coarse, 0, 1);
-        write_picture(coarse, job);
-    }
-    outcome.first_picture_seconds = since(start);
-    progress.begin("read levels", "levels", 1);
-    while (stage.load_next_level()) progress.check();
-    outcome.load_seconds = since(start) - outcome.first_picture_seconds;
-
-    Clock::time_point saved = Clock::now();
-    for (at.spent = since(start); !is_done(at, picture, job); at.spent = since(start)) {
-        const std::uint32_t until = next_target(at, picture, job);
-        const Clock::time_point began = Clock::now();
-        try {
-            pass(picture, at.samples, until);
-        } catch (const Error& e) {
-            if (e.code() == ErrorCode::Cancelled && at.samples > 0) save();
-            throw;
-        }
-        outcome.render_seconds += since(began);
-        at.samples = until;
-        at.each = outcome.render_seconds / (at.samples - at.resumed);
-        if (since(saved) > kSaveEvery && at.samples < job.samples) {
-            save();
-            saved = Clock::now();
-        }
-    }
+    render_passes({stage, options, seed, progress}, job, start, save, picture, outcome);
     write_picture(picture, job);
     std::error_code ignored;
     std::filesystem::remove(checkpoint, ignored);
-    outcome.samples = at.samples;
-    outcome.noise = picture.noise();
+    return outcome;
+}
+
+RenderOutcome render_in_memory(Stage& stage,
+                               const PathOptions& options,
+                               std::uint64_t seed,
+                               const RenderJob& job,
+                               Picture& picture,
+                               Progress& progress) {
+    RenderOutcome outcome;
+    render_passes(
+        {stage, options, seed, progress}, job, Clock::now(), [] {}, picture, outcome);
     return outcome;
 }
 

@@ -46,6 +46,17 @@ RenderOutcome render_to_file(Stage& stage,
                              const RenderJob& job,
                              Progress& progress);
 
+/// The same passes without a file: no coarse picture, no checkpoint.
+/// @param job      its output, exposure and resume are not looked at
+/// @param picture  without a sample; holds whole passes alone where this throws
+/// @throws Error   Cancelled
+RenderOutcome render_in_memory(Stage& stage,
+                               const PathOptions& options,
+                               std::uint64_t seed,
+                               const RenderJob& job,
+                               Picture& picture,
+                               Progress& progress);
+
 /// Writes a picture as .exr (half floats but for depth, samples and variance) or .png.
 void write_picture(const Picture& picture, const RenderJob& job);
 

@@ -14,7 +14,7 @@ EyeFrame::EyeFrame(const CameraView& camera, std::int32_t w, std::int32_t h, dou
       height(h) {
     if (!(length(camera.eye - camera.target) > 0.0)) {
         throw Error(ErrorCode::InvalidArgument, "view: the eye is at its target",
-                    "give a direction of any length but 0");
+                    "give a direction of nonzero length");
     }
     const double whole =
         parallel ? camera.view_height / unit : 2.0 * std::tan(0.5 * camera.view_angle);

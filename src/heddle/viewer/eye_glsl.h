@@ -4,17 +4,17 @@
 
 namespace heddle::viewer {
 
-/// GLSL, vertex: all pixels, as a triangle: ViewTarget::draw_all.
+/// GLSL, vertex: a triangle that covers all pixels, for ViewTarget::draw_all.
 inline constexpr std::string_view kAllPixelsGlsl = R"(
 void main() {
     gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);
 }
 )";
 
-/// GLSL: the ray of a pixel, in the eye's axes.
+/// GLSL: the ray of a pixel, in the axes of the eye.
 inline constexpr std::string_view kEyeGlsl = R"(
-uniform vec3 screen;  // width and height, pixels; width of a pixel, units; not parallel: at 1
-uniform int parallel; // rays
+uniform vec3 screen;  // width and height, pixels; width of a pixel, units; perspective: at 1
+uniform int parallel; // 1: rays are parallel
 
 vec2 aside_of(vec2 at) { return (at - 0.5 * screen.xy) * screen.z; }
 

@@ -8,7 +8,7 @@
 namespace heddle::viewer {
 namespace {
 
-/// `v` turned about the unit vector `axis`.
+/// `v` rotated about the unit vector `axis`.
 Vec3d turn_about(Vec3d v, Vec3d axis, double angle) {
     const Vec3d along = axis * dot(axis, v);
     const Vec3d across = v - along;
@@ -31,7 +31,7 @@ void Orbit::frame(const Ball& ball, double aspect) {
 }
 
 void Orbit::turn(double right, double upward) {
-    constexpr double kSteepest = 1.5707; // just short of straight above: `up` still tells a side
+    constexpr double kSteepest = 1.5707; // just below the zenith: `up` still defines a side
     const Vec3d pole = normalize(up);
     from = turn_about(from, pole, -right);
     const Vec3d unit = normalize(from);
@@ -53,7 +53,7 @@ void Orbit::zoom(double factor) {
 CameraView Orbit::camera() const {
     if (!(length(from) > 0.0) || !(length(up) > 0.0)) {
         throw Error(ErrorCode::InvalidArgument, "view: a direction has no length",
-                    "give one of any length but 0");
+                    "give one of nonzero length");
     }
     if (!(height > 0.0) || !(view_angle >= 0.0 && view_angle < 3.1)) {
         throw Error(ErrorCode::InvalidArgument,

@@ -25,7 +25,7 @@ TEST(Orbit, AFramedBallTouchesThePicturesEdges) {
             }
             const double away = length(camera.eye - camera.target);
             const double seen =
-                std::tan(std::asin(kBall.radius / away)); // of the ball, at distance 1
+                std::tan(std::asin(kBall.radius / away)); // radius of the ball, at distance 1
             EXPECT_LE(seen, half * std::tan(0.5 * angle) + 1e-12) << angle << " " << aspect;
             if (aspect >= 1.0) {
                 EXPECT_NEAR(seen, std::tan(0.5 * angle), 1e-12);
@@ -37,7 +37,7 @@ TEST(Orbit, AFramedBallTouchesThePicturesEdges) {
 TEST(Orbit, GoesAroundAndBackAndNeverOverThePole) {
     Orbit orbit{.from = {0.0, 0.0, 1.0}};
     orbit.turn(0.5 * std::numbers::pi, 0.0);
-    EXPECT_NEAR(orbit.from.x, -1.0, 1e-12); // what was on the left comes to the front
+    EXPECT_NEAR(orbit.from.x, -1.0, 1e-12); // the left side comes to the front
     orbit.turn(0.0, 0.3);
     EXPECT_NEAR(std::asin(orbit.from.y), 0.3, 1e-12);
     orbit.turn(0.0, 40.0);
@@ -50,7 +50,7 @@ TEST(Orbit, GoesAroundAndBackAndNeverOverThePole) {
 
 TEST(Orbit, PansWithThePictureAndZooms) {
     Orbit orbit{.from = {0.0, 0.0, 1.0}, .height = 4.0};
-    orbit.pan(0.25, -0.5); // the object goes right and down
+    orbit.pan(0.25, -0.5); // the object moves right and down
     EXPECT_NEAR(orbit.target.x, -1.0, 1e-12);
     EXPECT_NEAR(orbit.target.y, 2.0, 1e-12);
     orbit.zoom(2.0);

@@ -5,14 +5,14 @@
 
 namespace heddle::viewer {
 
-/// 8 bits a channel, sRGB, opaque, rows from the top.
+/// 8 bits per channel, sRGB, opaque, rows from the top.
 struct ViewImage {
     std::int32_t width = 0;
     std::int32_t height = 0;
     std::vector<std::uint8_t> rgb;
 };
 
-/// A picture of linear colour times alpha in the driver's memory, over which layers are blended.
+/// A picture of linear premultiplied colour in the driver's memory, over which layers are blended.
 /// Needs a current Context while it lives.
 class ViewTarget {
 public:
@@ -26,21 +26,21 @@ public:
     [[nodiscard]] std::int32_t width() const { return width_; }
     [[nodiscard]] std::int32_t height() const { return height_; }
 
-    /// From now on rows [first, end) alone change, from below: of all draws but those of maps.
+    /// Limits all draws except those of maps to rows [first, end), from the bottom.
     void limit(std::int32_t first, std::int32_t end) const;
-    /// Makes it clear, within the limit.
+    /// Clears it within the limit.
     void clear() const;
-    /// Draws go here, each over what is there: colours come times alpha. No depth test.
+    /// Makes it the target of draws, each blended over the contents, premultiplied. No depth test.
     void begin() const;
-    /// Draws `count` quads of four corners by the program in use.
+    /// Draws `count` quads of four corners with the program in use.
     static void draw_quads(std::uint32_t count);
-    /// Draws all pixels by the program in use, whose vertices are kAllPixelsGlsl's.
+    /// Draws all pixels with the program in use, whose vertex shader is kAllPixelsGlsl.
     static void draw_all();
-    /// RGBA, linear, times alpha, rows from below.
+    /// Reads RGBA, linear, premultiplied, rows from the bottom.
     [[nodiscard]] std::vector<float> read() const;
-    /// What is seen over white.
+    /// The picture over white.
     [[nodiscard]] ViewImage image() const;
-    /// The colours as texture unit `unit`, for what shows them.
+    /// Binds the colours to texture unit `unit`.
     void bind_color(std::uint32_t unit) const;
 
 private:

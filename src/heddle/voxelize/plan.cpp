@@ -120,6 +120,15 @@ bool has_extent(const Geometry& geometry) {
                        [&](const Mesh& mesh) { return differ(mesh.positions); });
 }
 
+/// Curves give tangents; lobes of a surface's material are read as normals.
+void check_material(const Geometry& geometry, const CurveSet& set) {
+    if (set.material >= geometry.materials.size()) return;
+    const Material& material = geometry.materials[set.material];
+    if (material.kind == MaterialKind::Fiber) return;
+    bad(str("curves of '", geometry.name, "' have the material '", material.name, "' of a surface"),
+        "set the material's kind to fiber");
+}
+
 void check_geometry(const Geometry& geometry) {
     if (!has_extent(geometry)) {
         throw Error(ErrorCode::BadFile, str("voxelize: '", geometry.name, "' has no extent"),
@@ -134,6 +143,7 @@ void check_geometry(const Geometry& geometry) {
         const bool given = (yarn != nullptr && yarn->radius > 0.0f) || !set.radius.empty() ||
                            set.default_radius > 0.0f;
         if (!given) bad(str("'", geometry.name, "' names no radius"), "give --yarn-radius");
+        check_material(geometry, set);
     }
 }
 

@@ -49,7 +49,8 @@ struct VoxelizePlan {
 
 /// Plans the work: grid, blocks, batches, predicted bytes and time.
 /// @throws Error  BadFile: an object without extent; InvalidArgument: voxel size not finite or <= 0,
-///                more than 2^40 voxels or 2^30 along an axis; OutOfMemory: `memory_bytes` below the least; Cancelled
+///                more than 2^40 voxels or 2^30 along an axis, curves of a surface's material;
+///                OutOfMemory: `memory_bytes` below the least; Cancelled
 [[nodiscard]] VoxelizePlan plan_voxelize(const Geometry& geometry,
                                          const VoxelizeOptions& options,
                                          const Progress& progress = Progress(),

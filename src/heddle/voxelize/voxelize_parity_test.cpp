@@ -104,10 +104,29 @@ TEST(VoxelizeParity, ARegionGivesTheVoxelsOfTheWhole) {
     for (const auto& [key, content] : part) EXPECT_EQ(whole.count(key), 1u);
 }
 
+TEST(VoxelizePlan, CurvesOfASurfacesMaterialAreRefused) {
+    CurveSet set;
+    heddle::test::add_curve(set, {{-2, 0, 0}, {-1, 0, 0}, {1, 0, 0}, {2, 0, 0}});
+    set.default_radius = 0.2f;
+    Geometry geometry = heddle::test::geometry_of(set);
+    EXPECT_GT(plan_voxelize(geometry, {}).voxels, 0);
+    geometry.materials[0].name = "plastic";
+    geometry.materials[0].kind = MaterialKind::Surface;
+    try {
+        (void)plan_voxelize(geometry, {});
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_EQ(e.code(), ErrorCode::InvalidArgument);
+        EXPECT_STREQ(e.what(), "voxelize: curves of 'test' have the material 'plastic' of a "
+                               "surface; set the material's kind to fiber");
+    }
+}
+
 TEST(VoxelizePlan, ABoxOfTooManyBlocksIsRefusedBeforeItsCountersAreTaken) {
     Geometry geometry;
     geometry.name = "diagonal";
     geometry.materials.resize(1);
+    geometry.materials[0].kind = MaterialKind::Fiber;
     CurveSet set;
     set.basis = Basis::Linear;
     set.points = {{0.0f, 0.0f, 0.0f}, {1e5f, 1e5f, 0.0f}};

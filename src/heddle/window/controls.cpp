@@ -10,7 +10,7 @@
 namespace heddle::window {
 namespace {
 
-/// The light goes with the mouse, as the eye would the other way.
+/// The light follows the mouse; the eye would move in the opposite direction.
 void turn_light(viewer::Settings& s, double right, double down) {
     viewer::Orbit light{.from = s.slices.light, .up = s.orbit.up};
     light.turn(-right * std::numbers::pi, -down * std::numbers::pi);
@@ -95,7 +95,7 @@ void Controls::drag(double right, double down) {
     });
 }
 
-/// Of the pixel under the mouse: windows may have more pixels than units.
+/// Picks the pixel under the mouse: windows may have more pixels than units.
 void Controls::pick_block() {
     int width = 1;
     int height = 1;

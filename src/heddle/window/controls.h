@@ -9,15 +9,15 @@ struct GLFWwindow;
 
 namespace heddle::window {
 
-/// Mouse and keys of a window, as changes of a session: docs/raster.md lists them.
+/// Mouse and keyboard input of a window, turned into changes of a session: docs/raster.md lists it.
 class Controls {
 public:
     using Clock = std::chrono::steady_clock;
 
-    /// Takes the window's callbacks and its user pointer. All three live as long.
+    /// Sets the window's callbacks and user pointer. All three arguments must outlive this.
     Controls(GLFWwindow* window, viewer::Session& session, PanelState& panel);
 
-    /// When the first input came that no picture has shown yet; none: Clock::time_point().
+    /// The time of the first input that no picture shows yet; Clock::time_point() if there is none.
     [[nodiscard]] Clock::time_point since() const { return since_; }
     void answered() { since_ = {}; }
 
@@ -27,7 +27,7 @@ private:
     [[nodiscard]] bool is_down(int button) const;
     void scroll(double notches);
     void move(double x, double y);
-    void drag(double right, double down); ///< in parts of the window's height
+    void drag(double right, double down); ///< as fractions of the window's height
     void press(int key);
     void pick_block();
     template <typename Change>
@@ -38,7 +38,7 @@ private:
     GLFWwindow* window_;
     viewer::Session& session_;
     PanelState& panel_;
-    double x_ = 0.0, y_ = 0.0; ///< of the mouse, in the window's own units
+    double x_ = 0.0, y_ = 0.0; ///< position of the mouse, in window units
     Clock::time_point since_{};
 };
 

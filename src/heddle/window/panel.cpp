@@ -102,7 +102,7 @@ void voxel_controls(viewer::Session& session, viewer::Settings& s) {
         choose("composition", composition, std::array{"last", "average", "max", "accumulate"})) {
         s.voxels.composition = static_cast<raster::Composition>(composition);
     }
-    ImGui::Checkbox("only what is seen", &s.voxels.only_seen);
+    ImGui::Checkbox("only the visible part", &s.voxels.only_seen);
     if (const viewer::Job* job = session.job(); job != nullptr) {
         ImGui::ProgressBar(static_cast<float>(job->part()), ImVec2(190.0f, 0.0f),
                            job->stage().c_str());

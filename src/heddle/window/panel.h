@@ -4,14 +4,14 @@
 
 namespace heddle::window {
 
-/// What the panel remembers beside the session's settings.
+/// The state of the panel beside the session's settings.
 struct PanelState {
-    int kind = 0;           ///< of yarn that is edited
+    int kind = 0;           ///< index of the kind of yarn that is edited
     double answer_ms = 0.0; ///< how long the last input took to show
 };
 
-/// Draws the controls of a session with Dear ImGui, between its NewFrame and Render, and does what
-/// they ask.
+/// Draws the controls of a session with Dear ImGui, between its NewFrame and Render, and applies
+/// the changes.
 void draw_panel(viewer::Session& session, PanelState& state);
 
 } // namespace heddle::window

@@ -7,7 +7,7 @@
 
 namespace heddle::window {
 
-/// Shows a picture in the window's own frame, over white and as sRGB. Needs a current context.
+/// Shows a picture in the window's framebuffer, over white and as sRGB. Needs a current context.
 class Presenter {
 public:
     Presenter();

@@ -7,7 +7,7 @@
 #include <heddle/window/watched_window.h>
 
 #include <epoxy/gl.h>
-// after epoxy, which has OpenGL's names
+// after epoxy, which defines the names of OpenGL
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
@@ -23,15 +23,15 @@ namespace {
 
 using Clock = Controls::Clock;
 
-constexpr double kCoarseSeconds = 0.06; ///< of a picture while the view moves
-constexpr double kWait = 0.25;          ///< seconds that an idle window sleeps, at most
+constexpr double kCoarseSeconds = 0.06; ///< per picture, while the view moves
+constexpr double kWait = 0.25;          ///< seconds that an idle window sleeps at most
 
 [[noreturn]] void fail(const std::string& what) {
     throw Error(ErrorCode::Device, "view: " + what,
                 "use a display with OpenGL 4.5, or --headless for pictures without one");
 }
 
-/// What GLFW last complained of.
+/// The last error message of GLFW.
 std::string& glfw_words() {
     static std::string words;
     return words;
@@ -61,7 +61,7 @@ public:
         glfwMakeContextCurrent(window_);
         glfwSwapInterval(1);
         ImGui::CreateContext();
-        ImGui::GetIO().IniFilename = nullptr; // nothing is written that was not asked for
+        ImGui::GetIO().IniFilename = nullptr; // no settings file is written
     }
     ~OpenWindow() {
         ImGui::DestroyContext();
@@ -77,7 +77,7 @@ private:
     GLFWwindow* window_ = nullptr;
 };
 
-/// ImGui's halves for GLFW and OpenGL; the callbacks that were set before go on being called.
+/// The GLFW and OpenGL backends of ImGui; callbacks that were set before are still called.
 struct ImGuiHalves {
     explicit ImGuiHalves(GLFWwindow* window) {
         ImGui_ImplGlfw_InitForOpenGL(window, true);
@@ -104,7 +104,7 @@ struct Answers {
     }
 };
 
-/// One context's life. What it ends with goes on in the next.
+/// The lifetime of one context. The next one continues with the state it ends with.
 struct Run {
     viewer::Subject subject;
     viewer::Settings settings;
@@ -135,7 +135,7 @@ void Run::frame(GLFWwindow* window,
     int width = 0;
     int height = 0;
     glfwGetFramebufferSize(window, &width, &height);
-    if (width < 1 || height < 1) return; // it is an icon now
+    if (width < 1 || height < 1) return; // the window is minimized
     session.resize(std::min(width, 8192), std::min(height, 8192));
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();

@@ -18,13 +18,10 @@ namespace heddle::cli {
 /// True when the words ask for --help.
 [[nodiscard]] bool wants_help(const std::vector<std::string>& words);
 
-/// The text of `heddle COMMAND --help`: rows under the headings of their groups.
-[[nodiscard]] std::string help_text(const Command& command);
-
-/// The rows of all tables as Markdown, for docs/options.md.
-[[nodiscard]] std::string markdown_tables(const std::vector<Command>& commands);
-
 /// The options that every subcommand has.
-[[nodiscard]] const std::vector<Option>& common_options();
+[[nodiscard]] const std::vector<Option>& common_rows();
+
+/// A command's own options, then these.
+[[nodiscard]] std::vector<Option> with_common(const Command& command);
 
 } // namespace heddle::cli

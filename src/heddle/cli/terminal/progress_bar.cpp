@@ -1,3 +1,4 @@
+#include <heddle/base/format_number.h>
 #include <heddle/cli/terminal/progress_bar.h>
 #include <heddle/cli/terminal/text.h>
 
@@ -34,10 +35,14 @@ void ProgressBar::begin(std::string_view stage, std::string_view unit, std::int6
     start_ = Clock::now();
 }
 
-void ProgressBar::begin_part(const std::string& name) {
+void ProgressBar::begin_part(std::string_view name) {
     finish();
-    part_ = name + "  ";
-    stages_.clear();
+    part_ = std::string(name) + "  ";
+}
+
+void ProgressBar::note(std::string_view sentence) {
+    wipe();
+    if (on_note_) on_note_(std::string(sentence));
 }
 
 void ProgressBar::advance(std::int64_t units) {
@@ -61,22 +66,17 @@ void ProgressBar::draw(double seconds) const {
     const double rate = done / seconds;
     const double left = part > 0.0 ? seconds * (1.0 - part) / part : 0.0;
     std::fprintf(stderr, "\r%s%-10s [%s] %3.0f %%  %s %s/s  %s left\x1b[K", part_.c_str(),
-                 stage_.c_str(), bar.data(), part * 100.0, show_count(rate).c_str(), unit_.c_str(),
-                 part > 0.0 ? show_seconds(left).c_str() : "?");
+                 stage_.c_str(), bar.data(), part * 100.0, format_count(rate).c_str(),
+                 unit_.c_str(), part > 0.0 ? format_seconds(left).c_str() : "?");
     std::fflush(stderr);
 }
 
+void ProgressBar::wipe() const {
+    if (!stage_.empty() && visible_ && next_draw_ms_ > kRedrawMs) std::fputs("\r\x1b[K", stderr);
+}
+
 void ProgressBar::finish() {
-    if (stage_.empty()) return;
-    const double seconds = seconds_since(start_);
-    const auto same = std::find_if(stages_.begin(), stages_.end(),
-                                   [this](const auto& stage) { return stage.first == stage_; });
-    if (same != stages_.end()) {
-        same->second += seconds;
-    } else {
-        stages_.emplace_back(stage_, seconds);
-    }
-    if (visible_ && next_draw_ms_ > kRedrawMs) std::fputs("\r\x1b[K", stderr);
+    wipe();
     stage_.clear();
 }
 

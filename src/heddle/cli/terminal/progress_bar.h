@@ -5,37 +5,35 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace heddle::cli {
 
-/// Draws the running stage on stderr, at most ten times a second, with rate and time left, and keeps
-/// how long each stage took.
+/// Draws the running stage on stderr, at most ten times a second, with rate and time left.
 class ProgressBar final : public Progress {
 public:
-    /// @param visible  draw; false: only keep the stages' times
-    explicit ProgressBar(bool visible) : visible_(visible) {}
+    /// @param on_note  is handed each note; may be empty
+    explicit ProgressBar(bool visible, std::function<void(const std::string&)> on_note = {})
+        : visible_(visible), on_note_(std::move(on_note)) {}
 
     void begin(std::string_view stage, std::string_view unit, std::int64_t total) override;
     void advance(std::int64_t units) override;
-    /// A part of the work starts ("frame 2 of 24"): its name stands before the stages', and their times are
-    /// counted anew.
-    void begin_part(const std::string& name);
+    /// Its name stands before the stages'.
+    void begin_part(std::string_view name) override;
+    void note(std::string_view sentence) override;
     /// Ends the running stage and wipes the line.
     void finish();
-    /// Name and seconds of each ended stage, in order; stages of one name are added up.
-    [[nodiscard]] const std::vector<std::pair<std::string, double>>& stages() const {
-        return stages_;
-    }
 
 private:
     using Clock = std::chrono::steady_clock;
     void draw(double seconds) const;
+    void wipe() const;
 
     bool visible_;
+    std::function<void(const std::string&)> on_note_;
     std::string part_; ///< with a space behind it, or empty
     std::string stage_;
     std::string unit_;
@@ -44,7 +42,6 @@ private:
     std::atomic<std::int64_t> next_draw_ms_{0}; ///< since the stage began
     Clock::time_point start_;
     std::mutex drawing_;
-    std::vector<std::pair<std::string, double>> stages_;
 };
 
 /// From now on SIGINT and SIGTERM cancel `progress`; a second one ends the program at once.

@@ -3,36 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
-#include <thread>
 
 namespace heddle::cli {
 namespace {
 
-TEST(ProgressBar, KeepsTheTimeOfEachStageInOrderAndAddsUpRepeatedOnes) {
-    ProgressBar bar(false);
-    for (const char* stage : {"bin", "gather", "bin"}) {
-        bar.begin(stage, "steps", 10);
-        std::this_thread::sleep_for(std::chrono::milliseconds(2));
-        bar.advance(10);
-    }
+TEST(ProgressBar, HandsNotesOn) {
+    std::vector<std::string> notes;
+    ProgressBar bar(false, [&](const std::string& note) { notes.push_back(note); });
+    bar.begin("read", "files", 1);
+    bar.note("radius estimated");
     bar.finish();
-    ASSERT_EQ(bar.stages().size(), 2u);
-    EXPECT_EQ(bar.stages()[0].first, "bin");
-    EXPECT_GE(bar.stages()[0].second, 0.004);
-    EXPECT_EQ(bar.stages()[1].first, "gather");
-}
-
-TEST(ProgressBar, CountsTheStagesOfEachPartAnew) {
-    ProgressBar bar(false);
-    for (const char* part : {"frame 1 of 2", "frame 2 of 2"}) {
-        bar.begin_part(part);
-        EXPECT_TRUE(bar.stages().empty());
-        bar.begin("read", "files", 1);
-        std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    }
-    bar.finish();
-    ASSERT_EQ(bar.stages().size(), 1u);
-    EXPECT_GE(bar.stages()[0].second, 0.002);
+    EXPECT_EQ(notes, std::vector<std::string>{"radius estimated"});
+    ProgressBar(false).note("to nobody");
 }
 
 TEST(ProgressBar, ASignalCancelsTheWork) {

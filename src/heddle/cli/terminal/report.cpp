@@ -1,4 +1,6 @@
 #include <heddle/base/error.h>
+#include <heddle/base/format_number.h>
+#include <heddle/cli/terminal/option_words.h>
 #include <heddle/cli/terminal/report.h>
 #include <heddle/cli/terminal/text.h>
 
@@ -36,16 +38,16 @@ void Report::text(const std::string& label, const std::string& value) {
     add(key_of(label, ""), label, value, value);
 }
 void Report::count(const std::string& label, std::int64_t value, const std::string& unit) {
-    add(key_of(label, ""), label, value, with_unit(show_count(static_cast<double>(value)), unit));
+    add(key_of(label, ""), label, value, with_unit(format_count(static_cast<double>(value)), unit));
 }
 void Report::number(const std::string& label, double value, const std::string& unit) {
     add(key_of(label, ""), label, value, with_unit(str(value), unit));
 }
 void Report::bytes(const std::string& label, std::int64_t value) {
-    add(key_of(label, "bytes"), label, value, show_bytes(static_cast<double>(value)));
+    add(key_of(label, "bytes"), label, value, format_bytes(static_cast<double>(value)));
 }
 void Report::seconds(const std::string& label, double value) {
-    add(key_of(label, "seconds"), label, value, show_seconds(value));
+    add(key_of(label, "seconds"), label, value, format_seconds(value));
 }
 
 void Report::table(const std::string& key,
@@ -71,15 +73,21 @@ void Report::table(const std::string& key,
 }
 
 void Report::note(const std::string& sentence) {
-    values_["notes"].push_back(sentence);
-    const bool first = said_->insert(sentence).second;
-    if (!quiet && first) std::fprintf(stderr, "note: %s\n", sentence.c_str());
+    values_["notes"].push_back(in_option_words(sentence, option_keys));
+    say(sentence);
+}
+
+void Report::say(const std::string& sentence) {
+    const std::string text = in_option_words(sentence, option_keys);
+    const bool first = said_->insert(text).second;
+    if (!quiet && first) std::fprintf(stderr, "note: %s\n", text.c_str());
 }
 
 Report Report::part() const {
     Report out;
     out.json = json;
     out.quiet = quiet;
+    out.option_keys = option_keys;
     out.said_ = said_;
     return out;
 }

@@ -35,8 +35,10 @@ public:
     void data(const std::string& key, nlohmann::ordered_json value);
     /// Text that is printed as it is in place of the table; JSON does not hold it.
     void page(const std::string& text) { page_ = text; }
-    /// One sentence that the user should see: on stderr at once, but once, and in the JSON's "notes".
+    /// One sentence that the user should see: in the JSON's "notes", and as say().
     void note(const std::string& sentence);
+    /// On stderr at once, but once.
+    void say(const std::string& sentence);
 
     /// An empty report of a part of the work: what one of them said on stderr, the others do not repeat.
     [[nodiscard]] Report part() const;
@@ -47,7 +49,8 @@ public:
     void print() const;
 
     bool json = false;
-    bool quiet = false; ///< no notes, and no table
+    bool quiet = false;                   ///< no notes, and no table
+    std::vector<std::string> option_keys; ///< that notes may name: see in_option_words()
 
 private:
     nlohmann::ordered_json values_ = nlohmann::ordered_json::object();

@@ -21,16 +21,7 @@ namespace heddle::cli {
 /// The pieces of `text` between separators: "1,2" gives "1" and "2".
 [[nodiscard]] std::vector<std::string> split(std::string_view text, char separator);
 
-/// "12.4 M" for 12,400,000; whole numbers below 1000 as they are.
-[[nodiscard]] std::string show_count(double count);
-
-/// "0.125": so many digits behind the point.
-[[nodiscard]] std::string show_fixed(double value, int decimals);
-
-/// "1.8 GiB" for 1,932,735,283.
-[[nodiscard]] std::string show_bytes(double bytes);
-
-/// "0.42 s", "12.3 s", "3 min 20 s", "2 h 5 min".
-[[nodiscard]] std::string show_seconds(double seconds);
+/// "heddle" and the words as a shell would take them back.
+[[nodiscard]] std::string quote_line(const std::vector<std::string>& words);
 
 } // namespace heddle::cli

@@ -51,7 +51,7 @@ parse_yarn_toml(const std::string& text, const std::string& path, const LoadText
 /// image of a slice is written as its name.
 [[nodiscard]] std::string write_yarn_toml(const YarnType& yarn);
 
-/// Names of the built-in yarns: "cotton", "silk", "wool".
+/// Names of the built-in yarns, ascending: "cotton", "silk", "wool".
 [[nodiscard]] std::vector<std::string> list_presets();
 
 /// Makes `total` the number of fibers of the whole yarn, spread evenly over its plies, and scales

@@ -187,6 +187,93 @@ TEST(YarnFile, PresetsSurviveTheTomlFormBitForBit) {
     EXPECT_TRUE(same(fit, parse_yarn_toml(write_yarn_toml(fit), "a.toml").yarn));
 }
 
+/// What the presets are, field by field.
+YarnType cotton() {
+    YarnType y;
+    y.name = "cotton";
+    y.model = YarnModel::Procedural;
+    y.albedo = {0.85f, 0.83f, 0.78f};
+    y.plies = 3;
+    y.fibers_per_ply = 60;
+    y.fiber_clockwise = true;
+    y.ply_pitch = 11.0f;
+    y.fiber_pitch = 9.0f;
+    y.ply_offset = 0.52f;
+    y.ellipse_long = 0.56f;
+    y.ellipse_short = 0.46f;
+    y.density_beta = 0.25f;
+    y.migration = true;
+    y.migration_min = 0.9f;
+    y.flyaways = true;
+    y.hair_density = 0.6f;
+    y.hair_ze = {0.1f, 1.2f};
+    y.hair_r0 = {0.5f, 0.1f};
+    y.hair_re = {0.3f, 0.2f};
+    y.hair_pe = {0.4f, 0.35f};
+    y.loop_density = 0.4f;
+    y.loop_r1 = {0.58f, 0.08f};
+    y.fiber_radius = 0.048f;
+    return y;
+}
+
+YarnType silk() {
+    YarnType y;
+    y.name = "silk";
+    y.model = YarnModel::Procedural;
+    y.albedo = {0.88f, 0.82f, 0.74f};
+    y.plies = 2;
+    y.fibers_per_ply = 100;
+    y.fiber_clockwise = true;
+    y.ply_pitch = 16.0f;
+    y.fiber_pitch = 24.0f;
+    y.ply_offset = 0.5f;
+    y.ellipse_long = 0.58f;
+    y.ellipse_short = 0.5f;
+    y.density_epsilon = 0.45f;
+    y.density_beta = 0.1f;
+    y.fiber_radius = 0.04f;
+    return y;
+}
+
+YarnType wool() {
+    YarnType y;
+    y.name = "wool";
+    y.model = YarnModel::Procedural;
+    y.albedo = {0.72f, 0.62f, 0.48f};
+    y.plies = 2;
+    y.fibers_per_ply = 90;
+    y.ply_clockwise = true;
+    y.ply_pitch = 9.0f;
+    y.fiber_pitch = 10.0f;
+    y.ply_offset = 0.48f;
+    y.ellipse_long = 0.68f;
+    y.ellipse_short = 0.52f;
+    y.density_epsilon = 0.15f;
+    y.density_beta = 0.6f;
+    y.migration = true;
+    y.migration_frequency = 1.9f;
+    y.migration_min = 0.75f;
+    y.flyaways = true;
+    y.hair_density = 3.0f;
+    y.hair_ze = {0.3f, 1.6f};
+    y.hair_r0 = {0.65f, 0.15f};
+    y.hair_re = {0.6f, 0.4f};
+    y.hair_pe = {0.5f, 0.5f};
+    y.loop_density = 3.0f;
+    y.loop_r1 = {0.85f, 0.22f};
+    y.fiber_radius = 0.04f;
+    return y;
+}
+
+TEST(YarnFile, PresetsHaveTheseNumbersToTheBit) {
+    EXPECT_EQ(list_presets(), (std::vector<std::string>{"cotton", "silk", "wool"}));
+    for (const YarnType& yarn : {cotton(), silk(), wool()}) {
+        const YarnFile file = read_yarn(yarn.name);
+        EXPECT_TRUE(same(file.yarn, yarn)) << yarn.name;
+        EXPECT_TRUE(file.notes.empty());
+    }
+}
+
 TEST(YarnFile, PresetsAreSoundYarns) {
     EXPECT_EQ(read_yarn("wool").yarn.plies, 2);
     EXPECT_EQ(read_yarn("cotton").yarn.plies, 3);

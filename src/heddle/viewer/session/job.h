@@ -13,26 +13,26 @@
 
 namespace heddle::viewer {
 
-/// What came of a job.
+/// The result of a job.
 struct JobResult {
     std::string message;                       ///< one line
     std::shared_ptr<const VoxelLevels> levels; ///< new voxels; null: none, or it failed
 };
 
-/// Long work on a thread of its own.
+/// Work on a thread of its own.
 class Job final : public Progress {
 public:
-    /// @param run  what it throws becomes the message
+    /// @param run  the text of an Error that it throws becomes the message
     explicit Job(std::function<JobResult(Progress&)> run);
-    /// Stops it.
+    /// Stops the job.
     ~Job() override;
     Job(const Job&) = delete;
     Job& operator=(const Job&) = delete;
 
-    /// What it does, and how much of that is done, of 1.
+    /// The current phase, and the fraction of it that is done, up to 1.
     [[nodiscard]] std::string stage() const;
     [[nodiscard]] double part() const;
-    /// The result, once: when it is there.
+    /// Returns the result, once, when it is there.
     [[nodiscard]] std::optional<JobResult> poll();
 
     void begin(std::string_view stage, std::string_view unit, std::int64_t total) override;
@@ -45,7 +45,7 @@ private:
     std::atomic<std::int64_t> done_{0};
     JobResult result_;
     std::atomic<bool> finished_{false};
-    std::thread thread_; ///< last: it uses the rest
+    std::thread thread_; ///< last member: it uses the others
 };
 
 } // namespace heddle::viewer

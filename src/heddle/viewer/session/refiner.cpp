@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::int32_t kMostScale = 16;
 
-/// Seconds that `run` and the driver's work of it take.
+/// The seconds that `run` takes, including the driver's work.
 template <typename Run>
 double timed(Run&& run) {
     const auto start = std::chrono::steady_clock::now();

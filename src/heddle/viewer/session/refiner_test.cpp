@@ -14,7 +14,7 @@
 namespace heddle::viewer {
 namespace {
 
-/// Fills what may be drawn with one colour.
+/// Fills the rows within the limit with one colour.
 void fill(const ViewTarget& target, float red) {
     target.begin();
     glClearColor(red, 0.0f, 0.0f, 1.0f);
@@ -49,7 +49,7 @@ TEST(Refiner, ASlowPictureBecomesCoarserUntilItIsInTime) {
     const opengl::Context context;
     Refiner refiner(640, 640);
     const auto draw = [&](const ViewTarget& target, bool) {
-        const double seconds = 4e-6 * target.width() * target.height(); // 1.6 s for all
+        const double seconds = 4e-6 * target.width() * target.height(); // 1.6 s in all
         std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
         fill(target, 1.0f);
     };

@@ -13,7 +13,7 @@ std::string list(Vec3d v) {
     return out.str();
 }
 
-/// As a basic string of TOML.
+/// The text as a basic string of TOML.
 std::string quoted(const std::string& text) {
     std::string out = "\"";
     for (const char c : text) {

@@ -8,11 +8,11 @@
 
 namespace heddle::viewer {
 
-/// A scene file for `heddle render` that shows a volume as the view does: its camera, and a light
-/// of the same direction and share: three quarters directional, a quarter from everywhere.
+/// A scene file for `heddle render` that shows a volume like the view: with its camera and a light
+/// of the same direction and share: three quarters directional, one quarter from all directions.
 /// [docs/scene.md]
-/// @param volume         path of a .vdb, as the scene file's folder has it
-/// @param light          towards the light, any length but 0
+/// @param volume         path of a .vdb, relative to the scene file's folder
+/// @param light          towards the light, nonzero length
 /// @param width, height  px
 [[nodiscard]] std::string scene_text(const std::string& volume,
                                      const CameraView& camera,

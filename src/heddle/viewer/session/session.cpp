@@ -15,9 +15,9 @@
 namespace heddle::viewer {
 namespace {
 
-constexpr std::int32_t kCoarseMap = 256; ///< shadow map while the view moves, pixels
+constexpr std::int32_t kCoarseMap = 256; ///< size of the shadow map while the view moves, pixels
 
-/// What of the settings a picture of slices or voxels shows.
+/// Whether two settings give the same picture of slices or voxels.
 bool same_picture(const Settings& a, const Settings& b) {
     return a.orbit == b.orbit && a.show == b.show && a.slices == b.slices && a.volume == b.volume &&
            a.yarns == b.yarns;
@@ -69,7 +69,7 @@ Session::Session(const opengl::Context& context,
 
 Session::~Session() = default;
 
-/// Runs what may fail for its input; then its one line is the message.
+/// Runs an action that may fail because of its input; its one-line text then becomes the message.
 /// @throws Error  Device
 template <typename Run>
 bool Session::attempt(Run&& run) {
@@ -155,7 +155,7 @@ ViewImage Session::draw_now(SliceTimes* times) {
 
 void Session::start(std::function<JobResult(Progress&)> run) {
     if (job_) {
-        message_ = "one thing at a time: wait, or stop what runs";
+        message_ = "another job is running: wait for it, or stop it";
         return;
     }
     message_.clear();
@@ -164,17 +164,21 @@ void Session::start(std::function<JobResult(Progress&)> run) {
 
 void Session::voxelize() {
     if (!subject_.geometry) {
-        message_ = "a volume is there already: open curves to voxelize them";
+        message_ = "a volume is already open: open curves to voxelize them";
         return;
     }
     Geometry geometry = edited(*subject_.geometry, settings_.yarns);
     multiply_fibers(geometry, settings_.slices.opacity);
     const double edge = settings_.orbit.pixel(picture_->fine().height()) * settings_.voxels.edge_px;
-    VoxelizeOptions options;
-    options.voxel_size = {edge, edge, edge};
-    options.footprints = 4; // transport through fibers needs them: docs/transport.md
+    job::VoxelizeJobOptions options;
+    options.voxel_size = Vec3d{edge, edge, edge};
     options.seed = subject_.seed;
     options.spool_dir = subject_.folder;
+    options.device = job::DeviceChoice::Cpu;
+    if (settings_.voxels.raster) {
+        options.backend = job::Backend::Raster;
+        options.composition = settings_.voxels.composition;
+    }
     if (settings_.voxels.only_seen) {
         const Bounds seen = seen_bounds(geometry, settings_.orbit.camera(), aspect());
         if (seen.empty()) {
@@ -183,11 +187,9 @@ void Session::voxelize() {
         }
         options.bounds = seen;
     }
-    start([request = VoxelRequest{.geometry = std::move(geometry),
-                                  .options = std::move(options),
-                                  .raster = settings_.voxels.raster,
-                                  .raster_options = {.composition = settings_.voxels.composition}}](
-              Progress& progress) { return voxelize_seen(request, progress); });
+    start([request = VoxelRequest{std::move(geometry), std::move(options)}](Progress& progress) {
+        return voxelize_seen(request, progress);
+    });
 }
 
 void Session::stop_job() {
@@ -242,7 +244,7 @@ std::string Session::place_of(const char* suffix) const {
 
 void Session::save_picture() {
     picture_wanted_ = true;
-    message_ = "saves the picture when it is whole";
+    message_ = "saves the picture when it is complete";
     write_picture();
 }
 
@@ -263,7 +265,7 @@ std::string Session::scene(const std::string& volume) const {
 
 void Session::save(bool scene) {
     if (!has_voxels()) {
-        message_ = "no voxels are there yet: voxelize first";
+        message_ = "there are no voxels yet: voxelize first";
         return;
     }
     const std::string text = scene ? this->scene(subject_.name + "_view.vdb") : std::string();
@@ -284,7 +286,7 @@ Ball Session::ball() const {
     return ball.radius > 0.0 ? ball : Ball{{}, 1.0};
 }
 
-/// From the unit ball to what is there.
+/// Moves the orbit from the unit ball to the objects.
 void Session::frame_first() {
     const double radius = ball().radius;
     Orbit& orbit = settings_.orbit;

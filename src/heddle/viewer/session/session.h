@@ -16,24 +16,24 @@
 
 namespace heddle::viewer {
 
-/// What is looked at: yarns and hair, a volume, or both.
+/// The objects that are shown: yarns and hair, a volume, or both.
 struct Subject {
-    std::string name;                          ///< of the file, for titles and saved files
-    std::optional<Geometry> geometry;          ///< of yarns of the models slice and solid, or hair
+    std::string name;                          ///< name of the file, for titles and saved files
+    std::optional<Geometry> geometry;          ///< yarns of the models slice and solid, or hair
     std::shared_ptr<const VoxelLevels> levels; ///< may be null
     std::uint64_t seed = 0;
     std::int64_t memory_bytes = 0; ///< SliceViewOptions::memory_bytes
     std::string folder = ".";      ///< where files are saved
 };
 
-/// A box around the control points, or where there are none around the leaves of 8^3 voxels.
+/// A box around the control points or, without any, around the leaves of 8^3 voxels.
 [[nodiscard]] Bounds bounds_of(const Subject& subject);
 
-/// What a view holds and does, without a window: settings in, pictures, voxels and files out. What
-/// fails leaves one line as message(), and everything as it was.
+/// The state and work of a view, without a window: settings in; pictures, voxels and files out. A
+/// failure leaves one line as message(), and everything else unchanged.
 class Session {
 public:
-    /// @param context  lives as long
+    /// @param context  must outlive the session
     /// @throws Error   as SliceView and VoxelView
     Session(const opengl::Context& context,
             Subject subject,
@@ -44,50 +44,50 @@ public:
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
 
-    /// Takes other settings; the picture begins again where they change it.
+    /// Sets other settings; the picture starts again if they change it.
     void set(const Settings& settings);
     [[nodiscard]] const Settings& settings() const { return settings_; }
     /// @throws Error  as ViewTarget
     void resize(std::int32_t width, std::int32_t height);
 
-    /// Takes what the job has made, and draws for about `seconds`.
-    /// @return        the picture is another
+    /// Takes the result of a job if there is one, and draws for about `seconds`.
+    /// @return        whether the picture has changed
     /// @throws Error  Device: the context is lost
     bool work(double seconds);
-    /// The whole picture, drawn at once.
+    /// Draws the complete picture at once.
     /// @param times   of slices; may be null
-    /// @throws Error  what fails
+    /// @throws Error  any failure
     [[nodiscard]] ViewImage draw_now(SliceTimes* times = nullptr);
     [[nodiscard]] const Refiner& picture() const { return *picture_; }
     [[nodiscard]] bool busy() const { return job_ != nullptr || !picture_->done(); }
 
-    /// Starts to voxelize what is seen, or all.
+    /// Starts to voxelize the visible part, or all.
     void voxelize();
     void stop_job();
     [[nodiscard]] const Job* job() const { return job_.get(); }
     [[nodiscard]] bool has_voxels() const { return voxels_ != nullptr; }
     [[nodiscard]] bool has_slices() const { return slices_ != nullptr; }
 
-    /// NAME_view.png: the picture, when it is whole.
+    /// Saves the picture as NAME_view.png when it is complete.
     void save_picture();
-    /// NAME_view.vdb: the voxels; on a thread, as voxelize().
+    /// Saves the voxels as NAME_view.vdb; on a thread, as voxelize().
     void save_voxels() { save(false); }
-    /// NAME_view.vdb, and NAME_view.toml for `heddle render`.
+    /// Saves NAME_view.vdb, and NAME_view.toml for `heddle render`.
     void save_scene() { save(true); }
 
-    /// A scene file that shows a volume as the view does.
+    /// A scene file that shows a volume like the view.
     [[nodiscard]] std::string scene(const std::string& volume) const;
 
     void frame_all();
-    /// Makes the block under a pixel white, or none where it is white already or there is none.
-    /// @param x, y  pixels from the picture's upper left corner
+    /// Makes the block under a pixel white, or none if it is white or missing.
+    /// @param x, y  pixels from the upper left corner of the picture
     void pick_block(double x, double y);
     [[nodiscard]] const std::string& message() const { return message_; }
     [[nodiscard]] const Subject& subject() const { return subject_; }
     [[nodiscard]] std::int64_t slice_count() const;
-    [[nodiscard]] int level_count() const;   ///< of the voxels; 0: none are there
-    [[nodiscard]] std::string blend() const; ///< how slices are put over each other, in words
-    /// Names of what Settings::yarns edit.
+    [[nodiscard]] int level_count() const;   ///< number of levels of the voxels; 0: there are none
+    [[nodiscard]] std::string blend() const; ///< the blending of slices, in words
+    /// The names of the kinds of yarn that Settings::yarns edits.
     [[nodiscard]] const std::vector<std::string>& kinds() const { return kinds_; }
 
 private:

@@ -36,7 +36,7 @@ protected:
     }
     ~SessionTest() override { std::filesystem::remove_all(folder_); }
 
-    /// Works until nothing is left to do, for a minute at most.
+    /// Works until nothing is left to do, for at most a minute.
     static bool settle(Session& session) {
         for (int i = 0; i < 6000 && session.busy(); ++i) {
             (void)session.work(0.05);
@@ -63,7 +63,7 @@ TEST_F(SessionTest, ShowsTheYarnAndWhatItsEditsChange) {
     Session session(context_, subject_, settings_, kSize, kSize);
     ASSERT_TRUE(settle(session));
     const double thin = darkness(session);
-    EXPECT_NEAR(thin, 2.0 * 0.4 / 9.0, 0.02); // 2 long, .4 wide, in a picture of 3 x 3
+    EXPECT_NEAR(thin, 2.0 * 0.4 / 9.0, 0.02); // 2 long, 0.4 wide, in a picture of 3 x 3
     Settings next = session.settings();
     next.yarns[0].radius = 2.0;
     session.set(next);
@@ -79,7 +79,7 @@ TEST_F(SessionTest, VoxelizesWhatIsSeenByBothBackendsAndSavesIt) {
         Session session(context_, subject_, settings_, kSize, kSize);
         Settings next = session.settings();
         next.voxels = {.raster = raster, .edge_px = 2.0};
-        next.orbit.target = {1.0, 0.0, 0.0}; // the picture ends at x = -.5
+        next.orbit.target = {1.0, 0.0, 0.0}; // the picture ends at x = -0.5
         session.set(next);
         session.voxelize();
         ASSERT_TRUE(settle(session)) << session.message();
@@ -156,7 +156,7 @@ TEST_F(SessionTest, WhatFailsIsALineAndLeavesTheRest) {
     EXPECT_EQ(session.job(), nullptr);
     EXPECT_NE(session.message().find("nothing is seen"), std::string::npos);
     next.voxels.only_seen = false;
-    next.voxels.edge_px = 1e-9; // more voxels than there can be
+    next.voxels.edge_px = 1e-9; // more voxels than possible
     session.set(next);
     session.voxelize();
     ASSERT_TRUE(settle(session));

@@ -13,23 +13,23 @@ namespace heddle::viewer {
 
 enum class Show : std::uint8_t { Slices, Voxels };
 
-/// How "voxelize what I see" works.
+/// How the visible part is voxelized.
 struct VoxelSettings {
-    bool raster = false; ///< slices drawn by OpenGL; else fibers
+    bool raster = false; ///< from slices drawn by OpenGL; else from fibers
     raster::Composition composition = raster::Composition::Accumulate;
-    double edge_px = 2.0;  ///< of a voxel, pixels at the target, > 0
+    double edge_px = 2.0;  ///< edge of a voxel, pixels at the target, > 0
     bool only_seen = true; ///< else all of the object
     bool operator==(const VoxelSettings&) const = default;
 };
 
-/// All that the artist sets. A picture depends on this, the object and its voxels alone.
+/// All settings of the user. A picture depends only on these, the object and its voxels.
 struct Settings {
     Orbit orbit;
-    bool framed = false; ///< the orbit is about the unit ball, and is to be moved to what is there,
-    bool target_given = false; ///< but for its target
+    bool framed = false; ///< the orbit is that of the unit ball, and will be moved to the objects,
+    bool target_given = false; ///< except for its target
     Show show = Show::Slices;
-    SliceLook slices; ///< its light is that of voxels too
-    VoxelLook volume; ///< of voxels; its blocks and white block are shown over slices too
+    SliceLook slices; ///< its light is also that of voxels
+    VoxelLook volume; ///< of voxels; its blocks and white block are also shown over slices
     std::vector<YarnEdit> yarns;
     VoxelSettings voxels;
 };

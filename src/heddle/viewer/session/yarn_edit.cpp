@@ -19,7 +19,7 @@ std::uint32_t tinted(std::uint32_t color, Vec3f tint) {
     return out;
 }
 
-/// Materials may be shared by kinds: points carry the tint, over the material's colour.
+/// Kinds may share a material, so points carry the tint, in place of the material's colour.
 void tint_set(CurveSet& set, const Material& material, Vec3f tint) {
     if (tint == Vec3f{1.0f, 1.0f, 1.0f}) return;
     if (set.color.empty()) set.color.assign(set.points.size(), pack_color(material.albedo));

@@ -12,7 +12,7 @@ namespace heddle::viewer {
 namespace {
 
 constexpr std::int32_t kSize = 200;
-constexpr double kPixel = 0.05; ///< slices are placed for, scene units
+constexpr double kPixel = 0.05; ///< pixel for which slices are placed, scene units
 
 /// A knit of more than 10,000 slices.
 Geometry knit() {

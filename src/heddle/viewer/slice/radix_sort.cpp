@@ -8,12 +8,12 @@ namespace {
 
 using opengl::Program;
 
-constexpr std::uint32_t kTile = 1024; ///< keys of one group: 16 for each of 64 invocations
-constexpr std::uint32_t kRun = 1024;  ///< counts that one invocation adds up
+constexpr std::uint32_t kTile = 1024; ///< keys per group: 16 for each of 64 invocations
+constexpr std::uint32_t kRun = 1024;  ///< counts that one invocation adds
 
 constexpr std::string_view kShared = R"(
 layout(std430, binding = 0) readonly buffer KeysIn { uint keys_in[]; };
-layout(std430, binding = 1) buffer Counts { uint counts[]; }; // digit by digit, tile by tile
+layout(std430, binding = 1) buffer Counts { uint counts[]; }; // by digit, then by tile
 layout(std430, binding = 2) buffer Sums { uint sums[]; };
 uniform uint count;
 uniform uint tiles;
@@ -24,9 +24,9 @@ uint tile() { return item() / 64u; }
 uint digit(uint key) { return key >> shift & 15u; }
 )";
 
-/// One tile a group: how many of each digit every invocation has.
+/// One tile per group: how many of each digit every invocation has.
 constexpr std::string_view kTileCounts = R"(
-shared uint held[16 * 64]; // digit by digit
+shared uint held[16 * 64]; // by digit
 
 void count_digits(uint first) {
     uint mine[16];
@@ -69,7 +69,7 @@ void main() {
 }
 )";
 
-/// Counts become where the first of each goes.
+/// Turns the counts into the index of the first key of each digit.
 constexpr std::string_view kAdd = R"(
 void main() {
     uint first = item() * 1024u;
@@ -92,7 +92,7 @@ void main() {
     uint first = item() * 16u;
     count_digits(first);
     barrier();
-    if (gl_LocalInvocationID.x < 16u && tile() < tiles) { // a digit each: its places by invocation
+    if (gl_LocalInvocationID.x < 16u && tile() < tiles) { // one digit: indices by invocation
         uint at = counts[gl_LocalInvocationID.x * tiles + tile()];
         for (uint i = 0u; i < 64u; ++i) {
             uint here = held[gl_LocalInvocationID.x * 64u + i];
@@ -151,7 +151,7 @@ void RadixSort::scan() const {
 
 void RadixSort::sort() const {
     opengl::finish_writes();
-    for (std::uint32_t pass = 0; pass < 8; ++pass) { // an even number: the last one ends in [0]
+    for (std::uint32_t pass = 0; pass < 8; ++pass) { // even: the last pass ends in [0]
         const std::size_t from = pass % 2;
         keys_[from].bind_storage(0);
         counts_.bind_storage(1);

@@ -7,19 +7,19 @@
 
 namespace heddle::viewer {
 
-/// Sorts keys of 32 bits with their numbers in compute shaders, four bits a pass, keeping the order
-/// of equal keys. Needs a current Context while it lives.                      [LopezMoreno17, 4.1]
+/// Sorts 32-bit keys with their numbers in compute shaders, four bits per pass; stable. Needs a
+/// current Context while it lives.                                             [LopezMoreno17, 4.1]
 class RadixSort {
 public:
-    /// @param count  of keys, at least 1
+    /// @param count  number of keys, at least 1
     /// @throws Error  OutOfMemory
     explicit RadixSort(std::uint32_t count);
 
-    /// Where the caller's shader writes `count` keys, and numbers to go with them.
+    /// The buffers into which the caller's shader writes `count` keys and their numbers.
     [[nodiscard]] const opengl::Buffer& keys() const { return keys_[0]; }
     [[nodiscard]] const opengl::Buffer& values() const { return values_[0]; }
 
-    /// Sorts them in place, ascending. Uses storage bindings 0 to 5. Waits for nothing.
+    /// Sorts them in place, ascending. Uses storage bindings 0 to 5. Does not wait.
     void sort() const;
 
 private:
@@ -27,7 +27,7 @@ private:
 
     std::uint32_t count_;
     std::uint32_t tiles_;
-    std::uint32_t entries_; ///< counts of 16 digits by tile
+    std::uint32_t entries_; ///< number of counts: 16 digits per tile
     opengl::Buffer keys_[2];
     opengl::Buffer values_[2];
     opengl::Buffer counts_;

@@ -18,7 +18,7 @@ TEST(RadixSort, IsTheStableSortOfTheCpuForAnyCount) {
         std::vector<std::uint32_t> keys(count);
         for (std::uint32_t i = 0; i < count; ++i) {
             const auto h = static_cast<std::uint32_t>(hash64(7, i));
-            keys[i] = i % 3 == 0 ? h & 0xffu : h; // many equal ones too
+            keys[i] = i % 3 == 0 ? h & 0xffu : h; // with many equal ones
         }
         std::vector<std::uint32_t> numbers(count);
         std::iota(numbers.begin(), numbers.end(), 0u);

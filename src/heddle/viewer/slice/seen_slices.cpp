@@ -46,7 +46,7 @@ std::uint32_t SeenSlices::see(std::size_t chunk, const EyeFrame& eye, Vec3d midd
         program_.set("parallel", eye.parallel ? 1 : 0);
         program_.set("sorted", sorted ? 1 : 0);
         program_.dispatch(capacity_);
-        sort_.sort(); // not sorted: slabs before what is none
+        sort_.sort(); // even if not sorted: slabs come before other slices
         last_ = now;
     }
     seen_.bind_storage(0);

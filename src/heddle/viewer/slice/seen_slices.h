@@ -12,26 +12,24 @@
 
 namespace heddle::viewer {
 
-/// Bytes in the driver's memory for each slice of the largest chunk: in view, its keys and numbers.
+/// Bytes in the driver's memory per slice of the largest chunk: in view, with its key and number.
 constexpr std::int64_t kSeenBytes = 64 + 4 * 4 + 1;
 
-/// Placed slices, and how they look from an eye: a chunk at a time, as one buffer of the driver
-/// holds it.
+/// Placed slices in the axes of an eye, one chunk at a time, as one buffer of the driver holds it.
 class SeenSlices {
 public:
-    /// @param chunks  one at least
+    /// @param chunks  at least one
     /// @throws Error  OutOfMemory
     explicit SeenSlices(std::vector<slice::SliceChunk> chunks);
 
     [[nodiscard]] std::size_t chunk_count() const { return chunks_.size(); }
     [[nodiscard]] std::int64_t slice_count() const;
 
-    /// Turns a chunk's slices into an eye's axes, numbers its slabs and, if asked to, sorts them
-    /// from the farthest to the nearest. Then what draws them finds slices at storage binding 0 and
-    /// numbers at binding 2.
-    /// @param middle  units: a place near to what is seen
-    /// What was seen last is not done again.
-    /// @return        slabs, the first of the numbers
+    /// Rotates a chunk's slices into the axes of an eye, numbers its slabs and optionally sorts
+    /// them from the farthest to the nearest. Draws then find slices at storage binding 0 and
+    /// numbers at binding 2. If the last call was the same, nothing is done.
+    /// @param middle  units: a point near the visible objects
+    /// @return        number of slabs, which are the first of the numbers
     [[nodiscard]] std::uint32_t
     see(std::size_t chunk, const EyeFrame& eye, Vec3d middle, bool sorted);
 

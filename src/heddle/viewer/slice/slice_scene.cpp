@@ -23,10 +23,10 @@ namespace {
 using opengl::Buffer;
 using opengl::Program;
 
-constexpr std::uint32_t kNothing = 0xffffffff; ///< of a depth map: all is lit
-constexpr double kDepths = 16777215.0;         ///< that it tells apart
+constexpr std::uint32_t kNothing = 0xffffffff; ///< in a depth map: all is lit
+constexpr double kDepths = 16777215.0;         ///< number of depths that it distinguishes
 
-/// Slabs as quads, and fragments of these parts.
+/// A program that draws slabs as quads, with a fragment shader of these parts.
 Program slab_program(const char* name, std::initializer_list<std::string_view> fragment) {
     const std::string shared =
         std::string(slice::kSliceGlsl) + std::string(slice::kSpanGlsl) + std::string(kEyeGlsl);
@@ -36,7 +36,7 @@ Program slab_program(const char* name, std::initializer_list<std::string_view> f
     return Program::draw(name, shared, vertex, body);
 }
 
-/// A map of another size than the picture is drawn whole.
+/// Turns the row limit off: a map of another size than the picture is drawn as a whole.
 class ScissorOff {
 public:
     ScissorOff() : was_(glIsEnabled(GL_SCISSOR_TEST)) { glDisable(GL_SCISSOR_TEST); }
@@ -50,8 +50,8 @@ private:
     GLboolean was_;
 };
 
-/// Where the driver's memory is the host's, it gives more than is there: so many slices at most. 0:
-/// no limit.
+/// If the driver's memory is that of the host, it reports more than it has; this limits the slices.
+/// 0: no limit.
 double most_slices(const opengl::Context& context) {
     if (!context.is_software()) return 0.0;
     const auto each = static_cast<double>(sizeof(slice::PlacedSlice)) + kSeenBytes;
@@ -104,7 +104,7 @@ void SliceScene::set_common(const Program& program,
     sections.bind();
 }
 
-/// Depths from `shift` on, as far as anything in a map can lie.
+/// Sets the depths from `shift` on, as far as anything in a map can be.
 void SliceScene::set_depths(const Program& program, double shift) const {
     program.set("depth_scale", static_cast<float>(kDepths * units.unit / (4.0 * ball.radius)));
     program.set("depth_shift", static_cast<float>(shift));
@@ -127,8 +127,8 @@ void SliceScene::draw_nearest(const EyeFrame& eye,
     opengl::finish_writes();
 }
 
-/// What the shadow map has to cover: all, or where little of that is seen, what lies around the
-/// target; it moves and grows in steps, so that a moving view seldom needs another.
+/// The part that the shadow map covers: all or, if only a small part is visible, the surroundings
+/// of the target. It moves and grows in steps, so that a moving view rarely needs a new map.
 Ball SliceScene::shadowed_part(const CameraView& camera, double aspect) const {
     const double height = camera.orthographic ? camera.view_height
                                               : 2.0 * std::tan(0.5 * camera.view_angle) *

@@ -17,44 +17,44 @@
 
 namespace heddle::viewer {
 
-/// Slabs as quads that face the eye.
+/// The programs that draw slabs as quads facing the eye.
 struct SlabPrograms {
     SlabPrograms();
-    opengl::Program nearest; ///< the depth at which half is hidden
-    opengl::Program over;    ///< each over what lies behind it
+    opengl::Program nearest; ///< the depth at which half of the light is blocked
+    opengl::Program over;    ///< each slab over those behind it
     opengl::Program weigh;   ///< for WeightedBlend
 };
 
-/// The same, with colours of voxels.
+/// The same programs with colours of voxels.
 struct GridPrograms {
     GridPrograms();
     opengl::Program over;
     opengl::Program weigh;
 };
 
-/// What a SliceView holds on the driver, and how it draws it.
+/// The data of a SliceView on the driver, and its drawing.
 struct SliceScene {
     const opengl::Context& context;
     SliceViewOptions options;
     Geometry geometry;
     Ball ball;
-    double pixel = 0.0; ///< that slices were placed for, scene units
+    double pixel = 0.0; ///< for which slices were placed, scene units
     LatticeUnits units;
     slice::SectionLayers layers;
     ViewSections sections;
     opengl::EmptyFrame frame;
     std::optional<SeenSlices> slices;
     SlabPrograms programs;
-    std::optional<GridPrograms> grid_programs; ///< made when they are asked for
+    std::optional<GridPrograms> grid_programs; ///< compiled when they are needed
 
     struct ShadowMap {
-        Vec3d light; ///< that it was drawn for
+        Vec3d light; ///< of which the map was drawn
         double opacity;
-        Ball over; ///< what it covers
+        Ball over; ///< the part that it covers
         opengl::Buffer depths;
     };
     std::map<std::int32_t, ShadowMap> shadows; ///< by size
-    std::optional<opengl::Buffer> front;       ///< what is nearest to the eye
+    std::optional<opengl::Buffer> front;       ///< nearest depths seen from the eye
     std::optional<WeightedBlend> blend;
     std::int32_t blend_width = 0, blend_height = 0;
 
@@ -71,7 +71,7 @@ struct SliceScene {
     set_common(const opengl::Program& program, const EyeFrame& eye, const SliceLook& look) const;
     void
     set_light(const opengl::Program& program, const EyeFrame& eye, const SliceLook& look) const;
-    /// Least depth of anything in a map over `part`, units.
+    /// The smallest depth of anything in a map of `part`, units.
     [[nodiscard]] double shadow_depth(const Ball& part) const {
         return -(ball.radius + length(part.middle - ball.middle)) / units.unit;
     }
@@ -95,8 +95,8 @@ struct SliceScene {
                        const opengl::Program& program,
                        const EyeFrame& eye,
                        const SliceLook& look);
-    /// The program for a look, all its uniforms of voxels set.
-    /// @param grid  there where the look's colour is Grid
+    /// The program for a look, with all its uniforms of voxels set.
+    /// @param grid  not null if the look's colour is Grid
     [[nodiscard]] const opengl::Program&
     program_for(const SliceLook& look, bool weighted, const EyeFrame& eye, const VoxelView* grid);
 };

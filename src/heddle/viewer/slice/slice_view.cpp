@@ -14,7 +14,7 @@
 namespace heddle::viewer {
 namespace {
 
-/// Every set gets one material, whose colour goes to its points: all slices are sorted as one.
+/// Gives every set one material, whose colour moves to its points: all slices are sorted together.
 void merge_materials(Geometry& geometry) {
     for (CurveSet& set : geometry.curves) {
         const std::uint32_t color = pack_color(geometry.materials[set.material].albedo);
@@ -43,11 +43,10 @@ void check_look(const SliceLook& look) {
         look.map_size <= 8192) {
         return;
     }
-    throw Error(
-        ErrorCode::InvalidArgument,
-        str("view: opacity ", look.opacity, ", a shadow map of ", look.map_size,
-            " pixels, a light of length ", length(look.light)),
-        "use an opacity above 0, a map of 16 to 8192 pixels and a light of any length but 0");
+    throw Error(ErrorCode::InvalidArgument,
+                str("view: opacity ", look.opacity, ", a shadow map of ", look.map_size,
+                    " pixels, a light of length ", length(look.light)),
+                "use an opacity above 0, a map of 16 to 8192 pixels and a light of nonzero length");
 }
 
 } // namespace

@@ -31,7 +31,7 @@ SliceLook look_of(bool sorted, bool shadows, Vec3d light = {0.0, 0.0, 1.0}) {
     return {.light = light, .sorted = sorted, .shadows = shadows};
 }
 
-/// All of it from a side; rays are parallel where `view_angle` is 0.
+/// All of it from a side; rays are parallel if `view_angle` is 0.
 ViewImage picture(SliceView& view, Vec3d from, const SliceLook& look, double view_angle = 0.0) {
     Orbit orbit{.from = from, .view_angle = view_angle};
     orbit.frame(view.ball(), 1.0);
@@ -103,7 +103,7 @@ TEST(SliceView, IsWhiteBesideTheYarnsAndHasTheirWidth) {
     SliceView view(context, cross_at(0.3f), {});
     const ViewImage image = picture(view, kFront, look_of(true, true));
     EXPECT_EQ(pixel(image, 2, 2), (Rgb{255, 255, 255}));
-    int covered = 0; // of a column that the red one alone crosses
+    int covered = 0; // pixels of a column that only the red one crosses
     for (std::int32_t y = 0; y < kSize; ++y) {
         covered += pixel(image, kSize / 2 + 6, y)[2] < 200 ? 1 : 0;
     }
@@ -143,7 +143,7 @@ TEST(SliceView, TheEyeMayStandInAYarnOrPastIt) {
             EXPECT_NE(pixel(image, 5, 5), (Rgb{255, 255, 255})) << "inside of the red one";
         }
     }
-    target.clear(); // all lies behind
+    target.clear(); // all is behind the eye
     view.draw(target, {.eye = {0.0, 0.0, 5.0}, .target = {0.0, 0.0, 9.0}}, look_of(true, true));
     for (const std::uint8_t c : target.image().rgb) ASSERT_EQ(c, 255);
 }
@@ -191,7 +191,7 @@ TEST(SliceView, ShadowsDarkenWhatLiesBehindAnotherYarnSeenFromTheLight) {
     }
     EXPECT_GT(darker, 5);
     EXPECT_EQ(brighter, 0);
-    // the light comes from above: the red yarn's shadow falls on the blue one below the crossing
+    // the light is above: the red yarn's shadow is on the blue one below the crossing
     const double scale = kSize / (2.0 * view.ball().radius);
     const auto row = static_cast<std::int32_t>(kSize / 2.0 + 0.2 * scale);
     EXPECT_LT(pixel(b, kSize / 2, row)[2], pixel(a, kSize / 2, row)[2] - 8);

@@ -16,17 +16,17 @@
 #include <utility>
 #include <vector>
 
-// What SliceView draws without shadows, in double precision on the CPU: docs/raster.md says it in
-// words.
+// What SliceView draws without shadows, in double precision on the CPU; docs/raster.md describes
+// it.
 
 namespace heddle::viewer::test {
 
-/// One image of a section in all its sizes, and what is asked of a texel.
+/// One image of a section in all its mipmap sizes, with texel lookup.
 struct SectionImage {
     std::vector<Texture> sizes;
     std::vector<std::uint8_t> light;
 
-    /// Value of a channel at u, v in [0, 1], between texels' centres.
+    /// The value of a channel at u, v in [0, 1], interpolated between the centres of texels.
     static double bilinear(
         const std::uint8_t* texels, int width, int size, int channels, int c, double u, double v) {
         const double x = u * size - 0.5;
@@ -83,7 +83,7 @@ public:
         }
     }
 
-    /// RGBA, linear, times alpha, rows from below.
+    /// RGBA, linear, premultiplied, rows from the bottom.
     std::vector<double> draw(const CameraView& camera, int width, int height, Vec3d light) {
         const PictureAxes axes(camera.eye - camera.target, camera.up);
         parallel_ = camera.orthographic;
@@ -222,7 +222,7 @@ private:
         to[3] = alpha + to[3] * (1.0 - alpha);
     }
 
-    /// Kajiya and Kay's model in full light.
+    /// The model of Kajiya and Kay in full light.
     [[nodiscard]] Vec3d shade(Vec3d color, Vec3d t, Vec3d way, double open) const {
         const double along_light = dot(t, to_light_);
         const double along_eye = -dot(t, way);

@@ -4,23 +4,23 @@
 
 namespace heddle::viewer {
 
-/// GLSL: slices in the eye's axes, z away from it; a key by depth. One slice an item.
+/// GLSL, one slice per item: moves it into the axes of the eye, z away from it; makes a depth key.
 inline constexpr std::string_view kSeeGlsl = R"(
 layout(std430, binding = 0) readonly buffer Placed { Slice placed[]; };
 layout(std430, binding = 1) writeonly buffer Seen { Slice seen[]; };
 layout(std430, binding = 2) writeonly buffer Keys { uint keys[]; };
 layout(std430, binding = 3) writeonly buffer Numbers { uint numbers[]; };
 uniform uint slice_count;
-uniform uint capacity; // keys; those past the slices come last
+uniform uint capacity; // number of keys; those without a slice come last
 uniform vec3 right, up, away;
-uniform vec3 middle;  // a place near to what is seen, where slices were placed
-uniform vec3 shift;   // of the middle, from the eye, in its axes
-uniform int parallel; // rays
+uniform vec3 middle;  // a point near the visible objects, in units
+uniform vec3 shift;   // the middle relative to the eye, in its axes
+uniform int parallel; // 1: rays are parallel
 uniform int sorted;
 
 vec3 turned(vec3 v) { return vec3(dot(right, v), dot(up, v), dot(away, v)); }
 
-// Ascending keys are from the farthest to the nearest; what is no slab comes last.
+// Ascending keys go from the farthest to the nearest; slices that start no slab come last.
 uint key_of(float depth) {
     uint bits = floatBitsToUint(depth);
     uint rising = (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
@@ -46,7 +46,7 @@ void main() {
 }
 )";
 
-/// GLSL, vertex: a slab as a quad across the way to its middle that holds it. Needs kStretchGlsl.
+/// GLSL, vertex: a quad over a slab, perpendicular to the ray to its middle. Needs kStretchGlsl.
 inline constexpr std::string_view kSeenQuadGlsl = R"(
 void main() {
     Stretch s = give_stretch();
@@ -68,7 +68,7 @@ void main() {
     float tilt = length(side);
     vec3 e = tilt > 1e-6 ? side / tilt : any_perpendicular(toward);
     vec3 d = cross(toward, e);
-    // a disc seen at a slant is an ellipse with these two axes; what is nearer looks larger
+    // a disc seen at an angle is an ellipse with these two axes; nearer parts look larger
     float grow = parallel == 1 ? 1.0 : away / (away - far);
     float pad = 0.75 * pixel_width(away);
     float half_e = grow * (s.reach * abs(dot(s.along, toward)) + half_long * tilt) + pad;
@@ -78,21 +78,21 @@ void main() {
 }
 )";
 
-/// GLSL, fragment: what a slab hides of a pixel. Needs kSlabGlsl and kEyeGlsl.
+/// GLSL, fragment: the opacity of a slab in a pixel. Needs kSlabGlsl and kEyeGlsl.
 inline constexpr std::string_view kOpacityGlsl = R"(
 layout(binding = 2) uniform sampler2DArray section_light;
 uniform float section_size; // texels
-uniform float opacity;      // multiplies what a texel hides
+uniform float opacity;      // multiplies the opacity of texels
 
-// The pixel's ray between the two slices, before the eye.
+// The part of the pixel's ray between the two slices, in front of the eye.
 vec2 start_pixel() {
     start(ray_from(gl_FragCoord.xy), ray_way(gl_FragCoord.xy));
     vec2 range = range_of_slab();
     return parallel == 1 ? range : max(range, vec2(0.0));
 }
 
-// Steps through the slab of a texel as large as a pixel, or larger; a step hides what its texel
-// does.
+// Steps through the slab with texels that are as large as a pixel or larger; a step is as opaque as
+// its texel.
 struct Steps { int count; float dt; float level; float strength; };
 
 Steps steps_through(vec2 range) {
@@ -106,7 +106,7 @@ Steps steps_through(vec2 range) {
 
 float hidden_by(float alpha, Steps steps) { return -log(1.0 - min(alpha, 0.996)) * steps.strength; }
 
-// As direction_of, but that of the centreline changes from slice to slice without a step.
+// As direction_of, but with a centreline direction that varies smoothly from slice to slice.
 vec3 smooth_direction(Local l) {
     vec3 tangent = mix(tangent_a.xyz, tangent_b.xyz, l.part);
     return fiber_direction(l.at * l.scale, tangent_a.w, l.rise, l.normal, l.binormal, tangent);
@@ -114,7 +114,7 @@ vec3 smooth_direction(Local l) {
 
 struct Look { float depth; vec3 color; vec3 direction; float light; float t; };
 
-const float kOpaque = 7.0; // 1/1000 is left
+const float kOpaque = 7.0; // optical depth: 1/1000 of the light is left
 
 Look look_through(vec2 range) {
     Steps steps = steps_through(range);
@@ -136,7 +136,7 @@ Look look_through(vec2 range) {
     return Look(sum.depth, sum.color / total, sum.direction, sum.light / total, sum.t / total);
 }
 
-// Where half of what lies behind is hidden; the range's end where it is not.
+// Where half of the light from behind is blocked; the end of the range if it is not.
 float half_hidden(vec2 range) {
     Steps steps = steps_through(range);
     float depth = 0.0;
@@ -152,15 +152,15 @@ float half_hidden(vec2 range) {
 }
 )";
 
-/// GLSL, fragment: how far along its ray a place lies, as 24 bits.
+/// GLSL, fragment: the distance of a point along its ray, in 24 bits.
 inline constexpr std::string_view kDepthGlsl = R"(
-uniform float depth_scale; // of a unit
+uniform float depth_scale; // per unit
 uniform float depth_shift;
 
 uint depth_bits(float t) { return uint(clamp((t - depth_shift) * depth_scale, 0.0, 16777215.0)); }
 )";
 
-/// GLSL, fragment: the depth at which a slab has hidden half of the light.
+/// GLSL, fragment: the depth at which a slab has blocked half of the light.
 inline constexpr std::string_view kNearestGlsl = R"(
 layout(std430, binding = 4) buffer Nearest { uint nearest_bits[]; };
 
@@ -174,13 +174,13 @@ void main() {
 }
 )";
 
-/// GLSL, fragment: where there are no voxels to take a colour from.
+/// GLSL, fragment: for programs that need no voxels for colour.
 inline constexpr std::string_view kNoGridGlsl = R"(
 vec3 grid_color(vec3 from_eye) { return vec3(0.0); }
 )";
 
-/// GLSL, fragment: the direction that voxels store where a slab is seen, white in one block, grey
-/// where there is no voxel. Needs kVoxelTableGlsl.
+/// GLSL, fragment: the direction that voxels store at a slab; one block is white, missing voxels
+/// are grey. Needs kVoxelTableGlsl.
 ///   [LopezMoreno17, fig. 14]
 inline constexpr std::string_view kGridGlsl = R"(
 uniform vec3 eye_place; // scene units
@@ -197,13 +197,13 @@ vec3 grid_color(vec3 from_eye) {
 }
 )";
 
-/// GLSL, fragment: a slab's colour: Kajiya and Kay's model of a thread under one distant light, the
-/// shadow map, and the section's occlusion.                                    [LopezMoreno17, 4.2]
+/// GLSL, fragment: the colour of a slab: Kajiya and Kay's model of a thread under one distant
+/// light, the shadow map, and the occlusion of the section.                    [LopezMoreno17, 4.2]
 inline constexpr std::string_view kShadeGlsl = R"(
 layout(std430, binding = 4) readonly buffer Shadow { uint shadow[]; };
-uniform vec3 to_light;                          // in the eye's axes
-uniform vec3 light_right, light_up, light_away; // of the shadow map's pixels, in the eye's axes
-uniform vec3 light_middle;                      // of the map, in the eye's axes
+uniform vec3 to_light;                          // in the axes of the eye
+uniform vec3 light_right, light_up, light_away; // axes of the shadow map, in the axes of the eye
+uniform vec3 light_middle;                      // middle of the map, in the axes of the eye
 uniform float light_pixel;                      // units
 uniform int shadow_size;                        // 0: none
 uniform int occlusion;
@@ -247,7 +247,7 @@ vec3 shade(Look look) {
 }
 )";
 
-/// GLSL, fragment: over what lies behind it.
+/// GLSL, fragment: blends a slab over those behind it.
 inline constexpr std::string_view kOverGlsl = R"(
 layout(location = 0) out vec4 result; // linear, times alpha
 
@@ -261,12 +261,12 @@ void main() {
 }
 )";
 
-/// GLSL, fragment: for WeightedBlend: what lies behind the first half of what hides weighs little.
+/// GLSL, fragment, for WeightedBlend: a slab behind the nearest half-opaque one gets a low weight.
 inline constexpr std::string_view kWeighGlsl = R"(
 layout(std430, binding = 5) readonly buffer Nearest { uint nearest_bits[]; };
 layout(location = 0) out vec4 sums;
 layout(location = 1) out float hides;
-uniform float eye_scale, eye_shift; // of the nearest depths, as depth_scale and depth_shift
+uniform float eye_scale, eye_shift; // for the nearest depths, like depth_scale and depth_shift
 
 void main() {
     vec2 range = start_pixel();

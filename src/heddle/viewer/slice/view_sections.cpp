@@ -58,8 +58,8 @@ ViewSections::ViewSections(const slice::SectionLayers& sections,
                            const std::vector<std::vector<std::uint8_t>>& light) {
     const std::int32_t n = sections.size;
     const auto levels = static_cast<GLsizei>(std::bit_width(static_cast<std::uint32_t>(n)));
-    // 16 bits: some drivers filter 8 bits in 8 bits, and the logarithm of what is left of alpha
-    // shows it
+    // 16 bits: some drivers filter 8-bit textures with 8 bits, which is visible in the logarithm of
+    // 1 - alpha
     color_ = make_array(GL_RGBA16, n, sections.layers.size(), levels);
     light_ = make_array(GL_R16, n, sections.layers.size(), 1);
     if (glGetError() != GL_NO_ERROR) {
@@ -78,8 +78,7 @@ ViewSections::ViewSections(const slice::SectionLayers& sections,
         image.texels = sections.layers[i].color;
         GLint level = 0;
         for (const Texture& t : shrink_slice(image)) {
-            const std::int32_t size =
-                std::max(n >> level, 1); // odd sizes: the last row is left out
+            const std::int32_t size = std::max(n >> level, 1); // odd sizes: the last row is dropped
             if (level >= levels) break;
             glPixelStorei(GL_UNPACK_ROW_LENGTH, t.width);
             glTextureSubImage3D(color_, level, 0, 0, at, size, size, 1, GL_RGBA, GL_UNSIGNED_BYTE,

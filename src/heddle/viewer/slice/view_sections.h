@@ -8,23 +8,23 @@
 
 namespace heddle::viewer {
 
-/// What the section's occlusion leaves of the light, by layer of `sections`: 255 = all; rows from
-/// below. Plain fibers have none.
+/// The light that the occlusion of the section lets through, by layer of `sections`: 255 = all;
+/// rows from the bottom. Plain fibers have none.
 [[nodiscard]] std::vector<std::vector<std::uint8_t>>
 bake_light(const Geometry& geometry, const slice::SectionLayers& sections);
 
-/// The sections for pictures: colour and alpha in sizes that keep opacity (yarn/slice_image.h), and
-/// the light that occlusion leaves.
+/// The sections for pictures: mipmaps of colour and alpha that preserve opacity
+/// (yarn/slice_image.h), and the light that occlusion lets through.
 class ViewSections {
 public:
-    /// @param light  by layer, size x size each, 255 = all; rows from below
+    /// @param light  by layer, size x size each, 255 = all; rows from the bottom
     /// @throws Error  OutOfMemory
     ViewSections(const slice::SectionLayers& sections,
                  const std::vector<std::vector<std::uint8_t>>& light);
     ~ViewSections();
     ViewSections(const ViewSections&) = delete;
     ViewSections& operator=(const ViewSections&) = delete;
-    /// Colours as texture unit 1, light as unit 2.
+    /// Binds colours to texture unit 1 and light to unit 2.
     void bind() const;
 
 private:

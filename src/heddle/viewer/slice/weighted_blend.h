@@ -7,8 +7,8 @@
 
 namespace heddle::viewer {
 
-/// Blending that no order shows in: colours weigh by how near they are to what is nearest, and what
-/// shines through is the product over all [McGuire and Bavoil 2013]. Needs a current Context while it lives.
+/// Order-independent blending: colours are weighted by distance behind the nearest surface, and the
+/// transmittance is a product [McGuire and Bavoil 2013]. Needs a current Context while it lives.
 class WeightedBlend {
 public:
     /// @throws Error  OutOfMemory
@@ -17,9 +17,9 @@ public:
     WeightedBlend(const WeightedBlend&) = delete;
     WeightedBlend& operator=(const WeightedBlend&) = delete;
 
-    /// Draws by what kWeighGlsl is part of go here; nothing is drawn yet.
+    /// Makes it the target of draws with kWeighGlsl, and clears it.
     void begin() const;
-    /// Puts the sums over what the target holds, which draws go to afterwards.
+    /// Blends the sums over the contents of the target, which is the target of later draws.
     void resolve(const ViewTarget& target) const;
 
 private:

@@ -20,7 +20,7 @@ struct Range {
     double begin, end;
 };
 
-/// Where the ray is within lo to hi.
+/// The part of the ray inside lo to hi.
 Range clip(Vec3d from, Vec3d way, Vec3d lo, Vec3d hi, double begin) {
     constexpr double kNever = std::numeric_limits<double>::infinity();
     Range out{begin, kNever};

@@ -21,7 +21,7 @@ Vec3i shifted(Vec3i v, int by) {
 
 /// Grows `to` by the voxels of a leaf.
 void grow(Bounds& to, const VoxelLeaf& leaf, Vec3d h) {
-    std::array<std::uint32_t, 3> seen{}; // layers by axis, a bit each
+    std::array<std::uint32_t, 3> seen{}; // layers by axis, one bit each
     for (std::uint32_t x = 0; x < 8; ++x) {
         for (std::uint32_t y = 0; y < 8; ++y) {
             const auto row = static_cast<std::uint32_t>(leaf.active[x] >> (8 * y) & 255);
@@ -44,7 +44,7 @@ void push_new(std::vector<Vec3i>& to, Vec3i at) {
     if (to.empty() || to.back() != at) to.push_back(at);
 }
 
-/// Bytes of the box of cells, occupied or not.
+/// The bytes of the bounding box of cells, occupied or not.
 std::int64_t box_bytes(std::span<const Vec3i> cells) {
     if (cells.empty()) return 0;
     std::int64_t box = 4;

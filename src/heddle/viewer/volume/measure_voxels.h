@@ -10,25 +10,25 @@
 
 namespace heddle::viewer {
 
-inline constexpr int kBlockShift = 5; ///< a block is a cell of 32^3 of the finest voxels
+inline constexpr int kBlockShift = 5; ///< a block is a cube of 32^3 of the finest voxels
 inline constexpr int kCellShift = 7;  ///< a cell of 16^3 leaves: 128 voxels along an axis
-inline constexpr std::size_t kCellLeaves = 4096; ///< of a cell
+inline constexpr std::size_t kCellLeaves = 4096; ///< leaves per cell
 inline constexpr std::size_t kLeafWords = 21;    ///< active: 16, before: 4, first voxel: 1
 
-/// What a level takes of the driver's memory, by storage block.
+/// The memory of a level on the driver, by storage block.
 struct VoxelTableBytes {
-    std::int64_t cells = 0;      ///< 4 a cell of 16^3 leaves, occupied or not
-    std::int64_t leaf_table = 0; ///< 16 KiB an occupied cell
-    std::int64_t leaves = 0;     ///< 84 a leaf
-    std::int64_t voxels = 0;     ///< 4 a voxel, in each of three storage blocks
+    std::int64_t cells = 0;      ///< 4 per cell of 16^3 leaves, occupied or not
+    std::int64_t leaf_table = 0; ///< 16 KiB per occupied cell
+    std::int64_t leaves = 0;     ///< 84 per leaf
+    std::int64_t voxels = 0;     ///< 4 per voxel, in each of three storage blocks
 
     [[nodiscard]] std::int64_t total() const { return cells + leaf_table + leaves + 3 * voxels; }
-    /// Of the fullest storage block.
+    /// Bytes of the largest storage block.
     [[nodiscard]] std::int64_t largest() const;
     VoxelTableBytes& operator+=(const VoxelTableBytes& other);
 };
 
-/// What is known of a level before its tables are made.
+/// The measurements of a level, before its tables are made.
 struct VoxelMeasure {
     VoxelTableBytes bytes;
     Bounds bounds;             ///< of its voxels, scene units
@@ -36,7 +36,7 @@ struct VoxelMeasure {
     std::vector<Vec3i> blocks; ///< of 4^3 leaves, occupied
 };
 
-/// Reads the leaves of all blocks; advances `progress` by one a block.
+/// Reads the leaves of all blocks; advances `progress` by one per block.
 /// @throws Error  Cancelled
 [[nodiscard]] VoxelMeasure measure_voxels(const VoxelSource& source, Progress& progress);
 

@@ -99,7 +99,7 @@ inline Rgb pixel(const ViewImage& image, std::int32_t x, std::int32_t y) {
     return {p[0], p[1], p[2]};
 }
 
-/// Sums of colour and of alpha.
+/// The sums of colour and of alpha.
 inline std::array<double, 2> sums(const std::vector<float>& rgba) {
     std::array<double, 2> out{};
     for (std::size_t i = 0; i < rgba.size(); i += 4) {

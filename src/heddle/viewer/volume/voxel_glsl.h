@@ -4,17 +4,17 @@
 
 namespace heddle::viewer {
 
-/// GLSL, fragment: whether light comes to a place: a cone of places towards it, one level coarser
-/// than what is lit and coarser with distance. Needs kVoxelWalkGlsl.
+/// GLSL, fragment: the light that reaches a point, by cone tracing towards the light, one level
+/// coarser than the lit voxel and coarser still with distance. Needs kVoxelWalkGlsl.
 inline constexpr std::string_view kVoxelShadowGlsl = R"(
 uniform vec3 to_light; // unit
 
-const int kSteps = 8;  // of each of three levels: 112 voxels of what is lit
+const int kSteps = 8;  // in each of three levels: 112 voxels of the lit level
 
 // @param place  from voxel_middle
 float lit_at(vec3 place, int level) {
     float depth = 0.0;
-    float far = 1.5 * voxel_levels[min(level + 1, voxel_range.y)].per.w; // past what is lit itself
+    float far = 1.5 * voxel_levels[min(level + 1, voxel_range.y)].per.w; // past the lit voxel
     for (int i = 0; i < 3 * kSteps && depth < 4.0; ++i) {
         int l = min(level + 1 + i / kSteps, voxel_range.y);
         float step = voxel_levels[l].per.w;
@@ -29,13 +29,13 @@ float lit_at(vec3 place, int level) {
 }
 )";
 
-/// GLSL, fragment: colours of what a voxel hides. `Shaded` follows kShadeGlsl's model of slices;
-/// with the light at the eye, preview.cpp's. Constants of the program: `color_mode`, a VoxelColor;
-/// `eye_light`, 1: the light is at the eye; `shadows`, 1 or 0.                        [Kajiya 1989]
+/// GLSL, fragment: the colours of voxels. `Shaded` follows the model of slices in kShadeGlsl; with
+/// the light at the eye it follows preview.cpp. Constants of the program: `color_mode`, a
+/// VoxelColor; `eye_light`, 1: the light is at the eye; `shadows`, 1 or 0.            [Kajiya 1989]
 inline constexpr std::string_view kVoxelColorGlsl = R"(
-uniform vec3 to_eye; // unit, of the picture's middle
+uniform vec3 to_eye; // unit, in the middle of the picture
 
-const float kAmbient = 0.25; // as kShadeGlsl
+const float kAmbient = 0.25; // as in kShadeGlsl
 
 vec3 heat(float x) { // blue, green, yellow, red
     return vec3(clamp(2.0 * x - 0.4, 0.0, 1.0), 1.0 - abs(2.0 * x - 0.9),
@@ -71,7 +71,7 @@ Lit lit_from_eye(vec3 color, vec3 axis, float wide, bool fiber) {
     float facing = fiber ? sqrt(max(0.0, 1.0 - along * along)) : along;
     float f = mix(facing, 0.75, wide);
     float shine = 0.12 * (1.0 - wide) * pow(f, 16.0);
-    // what lies behind other voxels is in their shadow
+    // voxels behind others are in their shadow
     return Lit((color * (0.12 + 0.88 * f * f) + shine) * (0.5 + 0.5 * through), vec3(0.0));
 }
 
@@ -88,7 +88,7 @@ Lit lit_from_light(vec3 color, vec3 axis, float wide, bool fiber) {
         facing *= wide;
         shine = 0.0;
     }
-    // what faces the eye is brighter: shadows show shapes
+    // parts that face the eye are brighter: this shows shapes in shadows
     float ambient = kAmbient * mix(0.5, 1.0, fiber ? across_eye : abs(along_eye));
     return Lit(color * ambient, color * (1.0 - kAmbient) * facing + shine);
 }
@@ -115,7 +115,7 @@ Lit shade(int number, int level, ivec3 at) {
     return Lit(color, vec3(0.0));
 }
 
-// A solid white voxel with dark edges, where pixels show them.
+// A solid white voxel with dark edges, if pixels resolve them.
 vec3 white_cell(int level, ivec3 at, float t) {
     vec3 per = voxel_levels[level].per.xyz;
     vec3 p = (ray.from + t * ray.way) * per + voxel_levels[level].shift.xyz - vec3(at);
@@ -131,12 +131,12 @@ vec3 white_cell(int level, ivec3 at, float t) {
 }
 )";
 
-/// GLSL, fragment: a pixel's ray through all voxels.
+/// GLSL, fragment: the ray of a pixel through all voxels.
 inline constexpr std::string_view kVoxelMainGlsl = R"(
 layout(location = 0) out vec4 result; // linear, times alpha
 
 vec3 sum;
-vec3 clump_direct; // of the clump that is walked, without shadows
+vec3 clump_direct; // of the current clump, without shadows
 float clump_hidden, clump_t;
 
 void meet(int number, int level, ivec3 at, float hidden, float t) {
@@ -151,7 +151,7 @@ void meet(int number, int level, ivec3 at, float hidden, float t) {
     clump_t += hidden * t;
 }
 
-// One ray to the light from the middle of what a clump hides.
+// Traces one ray to the light from the middle of the opaque part of a clump.
 void leave_clump(int level) {
     float lit = 1.0;
     if (shadows == 1 && clump_hidden > 0.01) {

@@ -23,7 +23,7 @@ TEST(VoxelLevels, FarAwayACoarserLevelIsTakenAndLooksAlike) {
     by_pixel.level = -1;
     for (const double angle : {0.0, 0.6}) {
         for (const int level : {0, 1, 2, 3}) {
-            // a pixel a little narrower than the level's voxels
+            // a pixel is slightly narrower than the level's voxels
             CameraView camera = around(view, {0.2, 0.1, 1.0}, angle);
             const double pixel = 0.93 * 0.05 * std::ldexp(1.0, level);
             camera.view_height = pixel * kSize;
@@ -42,7 +42,7 @@ TEST(VoxelLevels, FarAwayACoarserLevelIsTakenAndLooksAlike) {
             EXPECT_NEAR(coarse[1] / truth[1], 1.0, 0.14) << level << ' ' << angle;
         }
     }
-    // an offset moves by whole levels; in perspective the level changes along a ray
+    // an offset shifts by whole levels; in perspective the level changes along a ray
     VoxelLook offset = by_pixel;
     offset.level_offset = 2.0;
     VoxelLook two = at_eye();
@@ -55,7 +55,7 @@ TEST(VoxelLevels, FarAwayACoarserLevelIsTakenAndLooksAlike) {
 TEST(VoxelLevels, LevelsChangeAlongARayWithItsWidth) {
     const opengl::Context context;
     Progress progress;
-    // twice, four times what a byte tells apart: both hide the same of the same length
+    // twice and four times the largest depth of a byte: both block the same over the same length
     const double depth = 2.0 * double{preview::kMaxDepth} / 255.0;
     const VoxelGrid fine = make_voxels(box({0, 0, 0}, {8, 8, 64}), -std::expm1(-depth));
     VoxelGrid coarse = make_voxels(box({0, 0, 0}, {4, 4, 32}), -std::expm1(-2.0 * depth));

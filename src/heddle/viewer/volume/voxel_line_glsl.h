@@ -4,7 +4,7 @@
 
 namespace heddle::viewer {
 
-/// GLSL, vertex: edges of blocks as quads that hold lines one pixel wide. Needs kVoxelEyeGlsl.
+/// GLSL, vertex: edges of blocks as quads around lines one pixel wide. Needs kVoxelEyeGlsl.
 inline constexpr std::string_view kEdgeQuadGlsl = R"(
 // First corner, from voxel_middle; axis.
 layout(std430, binding = 14) readonly buffer Edges { vec4 edges[]; };
@@ -23,7 +23,7 @@ void main() {
     vec3 along = vec3(equal(ivec3(0, 1, 2), ivec3(int(edge.w)))) * block_size;
     vec3 a = seen(edge.xyz - start);
     vec3 b = seen(edge.xyz + along - start);
-    float least = 1e-3 * length(along); // before the eye
+    float least = 1e-3 * length(along); // in front of the eye
     if (parallel == 0 && max(a.z, b.z) <= least) {
         gl_Position = vec4(2.0, 2.0, 0.0, 1.0);
         return;
@@ -41,19 +41,19 @@ void main() {
 }
 )";
 
-/// GLSL, fragment: a line over the picture, dimmed by what is before it. Needs kVoxelWalkGlsl.
+/// GLSL, fragment: a line over the picture, dimmed by voxels before it. Needs kVoxelWalkGlsl.
 inline constexpr std::string_view kEdgeLineGlsl = R"(
 flat in vec4 ends;
 flat in vec4 edge;
 layout(location = 0) out vec4 result; // linear, times alpha
 
 const vec3 kColor = vec3(0.75, 0.03, 0.03);
-const float kDim = 0.2; // of a hidden line
+const float kDim = 0.2; // brightness of a hidden line
 
 void meet(int number, int level, ivec3 at, float hidden, float t) {}
 void leave_clump(int level) {}
 
-// Where on its ray a pixel comes closest to the edge.
+// The distance along its ray at which a pixel is closest to the edge.
 float place_on_ray() {
     vec3 u = vec3(equal(ivec3(0, 1, 2), ivec3(int(edge.w))));
     vec3 apart = ray.from - edge.xyz;

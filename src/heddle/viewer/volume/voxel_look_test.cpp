@@ -11,7 +11,7 @@ using namespace test;
 TEST(VoxelLook, ShadowsDarkenWhatLiesBehindSeenFromTheLight) {
     const opengl::Context context;
     Progress progress;
-    std::vector<Vec3i> at = box({0, 0, 0}, {64, 64, 2}); // a floor, and a bar over it
+    std::vector<Vec3i> at = box({0, 0, 0}, {64, 64, 2}); // a floor and a bar above it
     for (const Vec3i i : box({0, 28, 10}, {64, 8, 4})) at.push_back(i);
     const VoxelGrid grid = make_voxels(at, 1.0);
     const VoxelView view(context, Sources{&grid}, {}, progress);
@@ -20,7 +20,7 @@ TEST(VoxelLook, ShadowsDarkenWhatLiesBehindSeenFromTheLight) {
     const ViewImage without = picture(view, camera, look);
     look.shadows = true;
     const ViewImage with = picture(view, camera, look);
-    // the light is above: the bar's shadow lies 10 voxels below it
+    // the light is above: the shadow of the bar is 10 voxels below it
     const double scale = kSize / (2.0 * view.ball().radius);
     const auto row = [&](double y) { return static_cast<std::int32_t>(kSize / 2 + y * scale); };
     EXPECT_LT(pixel(with, kSize / 2, row(10.0))[1], pixel(without, kSize / 2, row(10.0))[1] - 60);
@@ -110,7 +110,7 @@ TEST(VoxelLook, BlocksThatTouchShareTheirEdges) {
 TEST(VoxelLook, AHiddenLineIsDimmer) {
     const opengl::Context context;
     Progress progress;
-    // in perspective the edges at z = 0, behind the voxels, are away from those at z = 32
+    // in perspective the edges at z = 0, behind the voxels, are apart from those at z = 32
     const VoxelGrid wall = make_voxels(box({-32, -32, 20}, {96, 96, 4}), 1.0);
     const VoxelView view(context, Sources{&wall}, {}, progress);
     CameraView camera{.eye = {16.0, 16.0, 120.0}, .target = {16.0, 16.0, 0.0}};
@@ -119,7 +119,7 @@ TEST(VoxelLook, AHiddenLineIsDimmer) {
     const std::vector<float> plain = floats(view, camera, look);
     look.blocks = true;
     const std::vector<float> lines = floats(view, camera, look);
-    const auto redder = [&](double x, double z) { // most of what a line adds near x at y = 16.25
+    const auto redder = [&](double x, double z) { // most red that a line adds near x at y = 16.25
         const double pixels = kSize / 2 + (x - 16.0) * 240.0 / (120.0 - z);
         double most = 0.0;
         for (int d = -1; d <= 1; ++d) {
@@ -155,7 +155,7 @@ TEST(VoxelLook, BlockAtFindsTheFirstBlockUnderAPixel) {
         EXPECT_FALSE(at(10.0, 20.0));
         EXPECT_FALSE(at(-45.0, 0.0));
     }
-    camera.eye.z = 100.0; // before the far block, inside of none
+    camera.eye.z = 100.0; // in front of the far block, inside none
     EXPECT_EQ(at(1.0, 0.0), (Vec3i{0, 0, 0}));
     camera.eye.z = 30.0; // inside
     EXPECT_EQ(at(1.0, 0.0), (Vec3i{0, 0, 0}));

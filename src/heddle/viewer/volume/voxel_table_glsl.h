@@ -4,19 +4,19 @@
 
 namespace heddle::viewer {
 
-/// GLSL, any stage: voxels in the driver's memory, as VoxelTables::bind has bound them: storage
-/// blocks 8 to 13, uniform block 8. Levels count as the span that made them: the finest that is
-/// there is voxel_range.x, the coarsest voxel_range.y.
+/// GLSL, any stage: voxels in the driver's memory, as VoxelTables::bind binds them: storage blocks
+/// 8 to 13, uniform block 8. Levels are numbered as in the input of VoxelTables; the finest that is
+/// stored is voxel_range.x, the coarsest voxel_range.y.
 ///
 /// `bool voxel_at(vec3 place, int level, out vec3 axis, out float density)`: whether there is a
-/// voxel at a place in scene units; `axis` is the direction of its heaviest lobe (of a fiber's
-/// tangent or a surface's normal; unit, its sign means nothing), `density` the mean of its coverage
-/// over the three axes, in [0, 127/128]. Levels that are not there are taken for the nearest.
+/// voxel at a point in scene units. `axis` is the direction of its heaviest lobe (a fiber's tangent
+/// or a surface's normal; unit, with arbitrary sign), `density` the mean of its coverage over the
+/// three axes, in [0, 127/128]. For a level that is not stored, the nearest one is used.
 inline constexpr std::string_view kVoxelTableGlsl = R"(
 struct VoxelLevel {
-    vec4 per;     // voxels a scene unit; w: longest edge, scene units
-    vec4 shift;   // of voxel_middle from the table's corner, voxels; w: shortest edge, scene units
-    ivec4 corner; // voxel index where the table starts; w: how often its edges double the finest's
+    vec4 per;     // voxels per scene unit; w: longest edge, scene units
+    vec4 shift;   // voxel_middle from the table's corner, voxels; w: shortest edge, scene units
+    ivec4 corner; // first voxel index of the table; w: doublings of the finest edges
     ivec4 cells;  // of 16^3 leaves in the table; w: its first in voxel_cells
     ivec4 lo;     // first leaf, from the corner
     ivec4 hi;     // last leaf, inclusive
@@ -36,20 +36,20 @@ layout(std430, binding = 13) readonly buffer VoxelAxes { uint voxel_axes[]; };
 
 const float kVoxelMaxDepth = 4.8520302; // preview::kMaxDepth
 
-// All indices count from the corner of the level's table.
+// All indices are relative to the corner of the level's table.
 int voxel_cell(int level, ivec3 cell) {
     ivec4 cells = voxel_levels[level].cells;
     if (any(lessThan(cell, ivec3(0))) || any(greaterThanEqual(cell, cells.xyz))) return -1;
     return voxel_cells[cells.w + (cell.x * cells.y + cell.y) * cells.z + cell.z];
 }
 
-// Where its words start; -1: empty.
+// Index of the first word of a leaf; -1: empty.
 int voxel_leaf(int cell, ivec3 leaf) {
     ivec3 i = leaf & 15;
     return int(voxel_leaf_table[cell * 4096 + ((i.x << 8) | (i.y << 4) | i.z)]) * 21 - 21;
 }
 
-// The number of voxel `at` of a leaf; -1: empty.
+// Index of voxel `at` of a leaf; -1: empty.
 int voxel_of_leaf(int leaf, ivec3 at) {
     int half_word = at.y >> 2;
     uint word = voxel_leaves[leaf + 2 * at.x + half_word];
@@ -60,7 +60,7 @@ int voxel_of_leaf(int leaf, ivec3 at) {
     return half_word == 0 ? count : count + bitCount(voxel_leaves[leaf + 2 * at.x]);
 }
 
-// The number of the voxel at a place from voxel_middle, scene units; -1: empty.
+// Index of the voxel at a point relative to voxel_middle, scene units; -1: empty.
 int voxel_at_offset(vec3 offset, int level) {
     ivec3 at = ivec3(floor(offset * voxel_levels[level].per.xyz + voxel_levels[level].shift.xyz));
     int cell = voxel_cell(level, at >> 7);

@@ -17,13 +17,13 @@ namespace {
 
 constexpr std::uint32_t kFirstStorage = 8;
 constexpr std::uint32_t kLevelsUniform = 8;
-constexpr std::size_t kBatchWords = 1 << 18; ///< that are written at once
+constexpr std::size_t kBatchWords = 1 << 18; ///< words that are written at once
 
 Vec3i shifted(Vec3i v, int by) {
     return {v.x >> by, v.y >> by, v.z >> by};
 }
 
-/// How often a level's edges double those of the finest.
+/// How often the edges of a level double those of the finest.
 int doublings(Vec3d finest, Vec3d edges) {
     const int out = static_cast<int>(std::lround(std::log2(edges.x / finest.x)));
     for (int a = 0; a < 3; ++a) {
@@ -63,11 +63,11 @@ void check_bindings() {
     if (storage >= 15 && blocks >= 7) return;
     throw Error(ErrorCode::Device,
                 str("opengl: the driver has ", blocks, " storage blocks in fragment shaders at ",
-                    storage, " places; 7 at 15 are needed to show voxels"),
+                    storage, " bindings; 7 at 15 are needed to show voxels"),
                 "use another driver, or heddle preview");
 }
 
-/// Words that go to a buffer one after the other.
+/// Writes words to a buffer in sequence.
 class Words {
 public:
     explicit Words(const opengl::Buffer& to) : to_(to) {}
@@ -91,7 +91,7 @@ private:
     std::vector<std::uint32_t> batch_;
 };
 
-/// Writes tables one behind the other; all numbers in them count from the first.
+/// Writes tables in sequence; all numbers in them count from the first table.
 struct Writer {
     std::array<Words, 6> to; ///< cells, leaf table, leaves, words of voxels
 
@@ -102,7 +102,7 @@ struct Writer {
             to[0].push(static_cast<std::uint32_t>(cell < 0 ? -1 : cell + first_cell));
         for (const std::uint32_t leaf : scene.leaf_table())
             to[1].push(leaf == 0 ? 0 : leaf + first_leaf);
-        std::vector<std::uint32_t> first; // voxel of each block
+        std::vector<std::uint32_t> first; // first voxel of each block
         std::uint32_t count = to[3].count();
         for (const std::vector<preview::Voxel>& block : scene.voxels_by_block()) {
             first.push_back(count);
@@ -136,13 +136,13 @@ std::vector<const VoxelSource*> sources_of(const VoxelLevels& levels) {
     return out;
 }
 
-/// As kVoxelTableGlsl has it.
+/// As in kVoxelTableGlsl.
 struct VoxelTables::Level {
-    std::array<float, 4> per{};           ///< voxels a scene unit; longest edge
-    std::array<float, 4> shift{};         ///< of the middle from the corner, voxels; shortest edge
-    std::array<std::int32_t, 4> corner{}; ///< voxel index at which the table starts; doublings
-    std::array<std::int32_t, 4> cells{};  ///< in the table; the first in the list of all
-    std::array<std::int32_t, 4> lo{};     ///< first leaf from the corner
+    std::array<float, 4> per{};           ///< voxels per scene unit; longest edge
+    std::array<float, 4> shift{};         ///< the middle from the corner, voxels; shortest edge
+    std::array<std::int32_t, 4> corner{}; ///< first voxel index of the table; doublings
+    std::array<std::int32_t, 4> cells{};  ///< of the table; index of the first in the list of all
+    std::array<std::int32_t, 4> lo{};     ///< first leaf, relative to the corner
     std::array<std::int32_t, 4> hi{-1, -1, -1, 0}; ///< last leaf, inclusive
 };
 
@@ -215,7 +215,7 @@ void VoxelTables::fill(std::span<const VoxelSource* const> levels, Progress& pro
         writer.write(scene);
     }
     for (Words& to : writer.to) to.flush();
-    for (std::size_t i = 0; i < levels.size(); ++i) { // all have edges, even those left out
+    for (std::size_t i = 0; i < levels.size(); ++i) { // all have edges, even those that do not fit
         const Vec3d h = levels[i]->info().lattice.voxel_size;
         about[i].per[3] = static_cast<float>(std::max({h.x, h.y, h.z}));
         about[i].shift[3] = static_cast<float>(std::min({h.x, h.y, h.z}));
@@ -225,7 +225,7 @@ void VoxelTables::fill(std::span<const VoxelSource* const> levels, Progress& pro
 }
 
 void VoxelTables::write_levels(std::vector<Level>& levels) {
-    // rounded as the shader has it: then a place's distance from it is all that rounds
+    // rounded as in the shader: then only the distance of a point from it is rounded
     const Bounds& box = finest_bounds_;
     if (!box.empty()) middle_ = to_double(to_float((box.lo + box.hi) * 0.5));
     for (Level& level : levels) {

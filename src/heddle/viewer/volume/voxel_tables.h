@@ -13,46 +13,47 @@
 
 namespace heddle::viewer {
 
-inline constexpr int kMostVoxelLevels = 24; ///< as many as shaders have room for
+inline constexpr int kMostVoxelLevels = 24; ///< the number that shaders have room for
 
-/// The levels by pointer, for what takes them from anywhere.
+/// Pointers to the levels, for functions that take levels of any origin.
 [[nodiscard]] std::vector<const VoxelSource*> sources_of(const VoxelLevels& levels);
 
-/// All levels of a volume in the driver's memory, each as preview::Scene has one: leaves found by
-/// index in two tables, 12 bytes a voxel. kVoxelTableGlsl reads them. Needs a current Context while
-/// it lives.
+/// All levels of a volume in the driver's memory, each like a preview::Scene: leaves are found by
+/// index in two tables; 12 bytes per voxel. kVoxelTableGlsl reads them. Needs a current Context
+/// while it lives.
 class VoxelTables {
 public:
-    /// Bytes are predicted before any are taken. Where they exceed a storage block, the finest
-    /// levels are left out: as few as may be. Reads each block twice, once of a level that is left
-    /// out.
+    /// Predicts the bytes before any are allocated. If they exceed a storage block, the finest
+    /// levels are left out, as few as possible. Reads each block twice, or once for a level that is
+    /// left out.
+    ///
     /// @param levels         finest first; edges of voxels double from one to the next, once or
-    ///                       more often; may be empty; not kept
-    /// @param storage_bytes  largest storage block that is planned for; 0: the driver's
-    /// @throws Error  InvalidArgument: edges do not double, over 24 levels; OutOfMemory: not even
-    ///                the coarsest fits; Device: too few storage blocks; Cancelled
+    ///                       more often; may be empty; not stored
+    /// @param storage_bytes  largest storage block to plan for; 0: the driver's
+    /// @throws Error  InvalidArgument: edges do not double, more than 24 levels; OutOfMemory: not
+    ///                even the coarsest fits; Device: too few storage blocks; Cancelled
     VoxelTables(const opengl::Context& context,
                 std::span<const VoxelSource* const> levels,
                 std::int64_t storage_bytes,
                 Progress& progress);
 
-    /// As storage blocks 8 to 13 and uniform block 8.
+    /// Binds storage blocks 8 to 13 and uniform block 8.
     void bind() const;
 
     [[nodiscard]] bool empty() const { return bounds_.empty(); } ///< no voxel in any level
     [[nodiscard]] int level_count() const { return static_cast<int>(bytes_.size()); }
-    /// The finest level that fits; finer ones are not there.
+    /// The finest level that fits; finer ones are not stored.
     [[nodiscard]] int first_level() const { return first_; }
-    /// By level, those that are left out too.
+    /// By level, including those that are left out.
     [[nodiscard]] std::span<const VoxelTableBytes> bytes() const { return bytes_; }
-    /// Around the voxels of all levels that fit, and of the finest of them, scene units.
+    /// The bounds of the voxels of all levels that fit, and of the finest of them, scene units.
     [[nodiscard]] const Bounds& bounds() const { return bounds_; }
     [[nodiscard]] const Bounds& finest_bounds() const { return finest_bounds_; }
-    /// Shaders take places from here, scene units.
+    /// The origin of points in shaders, scene units.
     [[nodiscard]] const Vec3d& middle() const { return middle_; }
-    /// Edges of a block, scene units.
+    /// The edges of a block, scene units.
     [[nodiscard]] Vec3d block_size() const;
-    /// Occupied cells of 32^3 voxels of level 0, even if that is left out: ascending x, then y,
+    /// Occupied blocks of 32^3 voxels of level 0, even if that is left out: ascending x, then y,
     /// then z.
     [[nodiscard]] std::span<const Vec3i> blocks() const { return blocks_; }
 

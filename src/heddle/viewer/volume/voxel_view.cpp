@@ -31,7 +31,7 @@ bool casts_shadows(const VoxelLook& look) {
     return look.shadows && look.light && look.color == VoxelColor::Shaded;
 }
 
-// What of a look programs are made for: a branch on it costs a software driver a third of its time.
+// A look's constants are compiled in: branches on them cost a software driver a third of its time.
 
 std::string white_constant(const VoxelLook& look) {
     return str("const int white = ", look.white_block ? 1 : 0, ";\n");
@@ -43,7 +43,7 @@ std::string color_constants(const VoxelLook& look) {
                ";\nconst int shadows = ", casts_shadows(look) ? 1 : 0, ";\n");
 }
 
-/// Pixels by ray.
+/// The program that casts one ray per pixel.
 Program ray_program(const std::string& constants) {
     const std::string fragment = constants + std::string(kVoxelEyeGlsl) +
                                  std::string(kVoxelWalkGlsl) + std::string(kVoxelShadowGlsl) +
@@ -58,7 +58,7 @@ Program line_program(const std::string& constants) {
     return Program::draw("draw blocks of voxels", shared, kEdgeQuadGlsl, fragment);
 }
 
-/// A program by the constants that it is made for, made when it is first asked for.
+/// A program for each set of constants, compiled when it is first needed.
 class Programs {
 public:
     explicit Programs(Program (*make)(const std::string&)) : make_(make) {}
@@ -84,10 +84,10 @@ void check_look(const VoxelLook& look) {
         ErrorCode::InvalidArgument,
         str("view: level ", look.level, ", an offset of ", look.level_offset,
             " levels, a density scale of ", look.density_scale, ", a light of length ", light),
-        "use a level from -1 on, a finite offset, a scale above 0 and a light of any length but 0");
+        "use a level from -1 on, a finite offset, a scale above 0 and a light of nonzero length");
 }
 
-/// How far from the eye all of a box begins; in perspective not behind the eye.
+/// The distance from the eye to the front of a box; in perspective not behind the eye.
 double distance_to(const Bounds& box, const EyeFrame& eye) {
     double near = std::numeric_limits<double>::infinity();
     for (int c = 0; c < 8; ++c) {

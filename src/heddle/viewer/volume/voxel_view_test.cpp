@@ -13,7 +13,7 @@ namespace {
 
 using namespace test;
 
-/// The camera of render_preview for a square picture; see preview.cpp.
+/// The camera of render_preview for a square picture; as in preview.cpp.
 CameraView preview_camera(const VoxelSource& source, Vec3d from, double angle) {
     Progress progress;
     const preview::Scene scene(source, false, progress);
@@ -37,7 +37,7 @@ CameraView preview_camera(const VoxelSource& source, Vec3d from, double angle) {
     return out;
 }
 
-/// The share of pixels that are over 1 of 255 off what render_preview draws, and that it covers.
+/// The fraction of pixels that differ by more than 1 of 255 from render_preview, and its coverage.
 std::array<double, 2> off_preview(const VoxelSource& source, PreviewColor color, double angle) {
     constexpr Vec3d kFrom{0.6, 0.7, 1.0};
     Progress progress;
@@ -134,10 +134,10 @@ TEST(VoxelView, TheEyeMayBeInsideAndSeesNothingBehindIt) {
     EXPECT_NEAR(alpha(camera), 0.5, 0.01);
     camera.eye.z = 60.0;
     EXPECT_NEAR(alpha(camera), 0.75, 0.01);
-    camera.eye.z = 40.5; // within a wall
+    camera.eye.z = 40.5; // inside a wall
     EXPECT_NEAR(alpha(camera), 1.0 - 0.5 * std::sqrt(0.5), 0.01);
     camera.eye.z = 20.0;
-    camera.orthographic = true; // has no beginning
+    camera.orthographic = true; // rays have no start
     EXPECT_NEAR(alpha(camera), 0.75, 0.01);
 }
 

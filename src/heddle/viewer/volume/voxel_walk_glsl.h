@@ -4,19 +4,19 @@
 
 namespace heddle::viewer {
 
-/// GLSL: a camera whose rays start close to the voxels: an eye far away costs no bits of their
-/// places.
+/// GLSL: a camera whose rays start close to the voxels, so that a distant eye does not cost
+/// precision.
 inline constexpr std::string_view kVoxelEyeGlsl = R"(
-uniform vec3 screen; // width and height, pixels; width of a pixel: scene units; not parallel: at 1
-uniform int parallel;         // rays
+uniform vec3 screen; // width and height, pixels; width of a pixel: scene units; perspective: at 1
+uniform int parallel;         // 1: rays are parallel
 uniform vec3 right, up, away; // axes, unit
-uniform vec3 start;           // of the ray through the picture's middle, from voxel_middle
-uniform float near;           // from the eye to there
+uniform vec3 start;           // start of the middle ray, relative to voxel_middle
+uniform float near;           // distance from the eye to it
 
 struct VoxelRay {
-    vec3 from;  // from voxel_middle
+    vec3 from;  // relative to voxel_middle
     vec3 way;   // unit
-    float past; // from the eye to `from`
+    float past; // distance from the eye to `from`
 };
 
 VoxelRay voxel_ray(vec2 at) {
@@ -32,41 +32,41 @@ float pixel_width(VoxelRay ray, float t) {
 }
 )";
 
-/// GLSL, fragment: a ray through occupied leaves and their voxels, front to back; what voxels hide
-/// as in preview.cpp. Needs kVoxelTableGlsl, kVoxelEyeGlsl, a constant `white` (1: `white_block` is
-/// solid) and these two, which see each voxel that hides something, `hidden` of the light that
-/// there was, and the end of each clump of them:
+/// GLSL, fragment: a ray through occupied leaves and their voxels, front to back, with the opacity
+/// of preview.cpp. Needs kVoxelTableGlsl, kVoxelEyeGlsl, a constant `white` (1: `white_block` is
+/// solid) and these two functions. They are called for each voxel that blocks light, `hidden` of
+/// the light that entered the scene, and at the end of each clump of voxels:
 ///     void meet(int number, int level, ivec3 at, float hidden, float t);
 ///     void leave_clump(int level);
 inline constexpr std::string_view kVoxelWalkGlsl = R"(
-uniform int level_first, level_last; // that serve
-uniform float level_reach;           // a level serves pixels up to this many of its edges wide
-uniform vec3 box_lo, box_hi;         // of all voxels, from voxel_middle
+uniform int level_first, level_last; // range of levels that are used
+uniform float level_reach;           // a level is used for pixels up to this many of its edges wide
+uniform vec3 box_lo, box_hi;         // of all voxels, relative to voxel_middle
 uniform float density_scale;
 uniform ivec3 white_block;
 
 void meet(int number, int level, ivec3 at, float hidden, float t);
 void leave_clump(int level);
 
-const float kOpaque = 0.004;  // less than this is not followed
-const float kFlatWidth = 96.0 / 255.0; // these three: see preview.cpp
+const float kOpaque = 0.004;  // rays end below this transmittance
+const float kFlatWidth = 96.0 / 255.0; // these three: as in preview.cpp
 const float kClosing = 1.5;
 const float kSheetGap = 0.5;
 const float kClumpGap = 4.0;   // voxels between two clumps
-const float kClumpMost = 16.0; // voxels that a clump may be long
+const float kClumpMost = 16.0; // greatest length of a clump, voxels
 const float kNever = 1e30;
 
 VoxelRay ray;
-float through;    // of the light
-float sheet_end;  // t where a flat surface was last met
-float sheet_left; // what its voxels left of 1
+float through;    // transmittance
+float sheet_end;  // t where a flat surface was last hit
+float sheet_left; // its transmittance so far
 
-// Of the level that is walked, in its voxels from the table's corner.
+// Of the current level, in its voxels, relative to the corner of its table.
 ivec3 table_lo, table_hi; // voxels, inclusive
-vec3 origin;              // of the ray
-vec3 weight;              // of the ray's way: voxels a unit of t
-vec3 per;                 // units of t a voxel
-float sheet_gap;          // that a flat surface may have, scene units
+vec3 origin;              // origin of the ray
+vec3 weight;              // direction of the ray: voxels per unit of t
+vec3 per;                 // units of t per voxel
+float sheet_gap;          // largest gap in a flat surface, scene units
 
 // The block of a voxel.
 ivec3 block_of(int level, ivec3 at) {
@@ -75,7 +75,7 @@ ivec3 block_of(int level, ivec3 at) {
     return corner.w <= 5 ? i >> (5 - corner.w) : i << (corner.w - 5);
 }
 
-// What a voxel of a flat surface takes; see preview.cpp.
+// The opacity of a voxel of a flat surface, as in preview.cpp.
 float hidden_by_sheet(vec3 k, uint flags, float t, float leave) {
     vec3 turn = vec3(1.0) - 2.0 * vec3(ivec3(flags, flags >> 1, flags >> 2) & 1);
     float surface = dot((vec3(1.0) - exp(-k)) * turn, weight);
@@ -105,7 +105,7 @@ void cross_voxel(int number, int level, ivec3 at, float t, float leave) {
     through -= hidden;
 }
 
-// What of a ray is within a box.
+// The part of a ray inside a box.
 vec2 clip(vec3 p, vec3 d, vec3 lo, vec3 hi, vec2 range) {
     for (int a = 0; a < 3; ++a) {
         if (d[a] == 0.0) {
@@ -119,12 +119,12 @@ vec2 clip(vec3 p, vec3 d, vec3 lo, vec3 hi, vec2 range) {
     return range;
 }
 
-// A ray on its way through a level: the voxel that it is in, or comes to, and since when.
+// The state of a ray in a level: the voxel it is in, or enters next, and the t of its entry.
 struct Walk {
     ivec3 at;
     float t;
-    bool inside; // the table, and before the end
-    ivec3 known; // the leaf whose table entries are at hand
+    bool inside; // inside the table, and before the end
+    ivec3 known; // the leaf whose table entries are loaded
     int cell;
     int leaf;
 };
@@ -144,7 +144,7 @@ Walk start_level(int level, float t, inout float t_end) {
     return Walk(at, range.x, range.x < range.y, (at >> 3) - 1, -1, -1);
 }
 
-// To the voxel, or out of the empty leaf or cell, that the ray is in, and to what lies behind it.
+// Steps through the voxel, or the empty leaf or cell, that the ray is in, to the next one.
 Found step_on(inout Walk w, int level, float t_end) {
     if (any(notEqual(w.at >> 3, w.known))) {
         w.known = w.at >> 3;
@@ -170,15 +170,15 @@ Found step_on(inout Walk w, int level, float t_end) {
     return found;
 }
 
-// One loop over what is empty, cells, leaves or voxels, within one over the voxels of a clump,
-// within one over clumps. A software driver runs what a branch guards for all its pixels, taken or
-// not, and a loop once at least: with loops for cells, leaves and voxels it takes twice as long.
+// One loop over empty cells, leaves or voxels, within one over the voxels of a clump, within one
+// over clumps. A software driver executes guarded branches for all its pixels, taken or not, and
+// each loop at least once: with separate loops for cells, leaves and voxels it takes twice as long.
 void walk_level(int level, float t, float t_end) {
     Walk w = start_level(level, t, t_end);
     float gap = kClumpGap * voxel_levels[level].per.w;
     float most = kClumpMost * voxel_levels[level].per.w;
     while (w.inside && through > kOpaque) {
-        float first_enter = kNever; // of the clump's voxels
+        float first_enter = kNever; // entry into the first voxel of the clump
         float last_leave = kNever;
         bool clump = true;
         while (clump) {
@@ -197,14 +197,14 @@ void walk_level(int level, float t, float t_end) {
     }
 }
 
-// Where on the ray a pixel gets wider than a level's voxels.
+// The t at which a pixel becomes wider than a level's voxels.
 float end_of(int level) {
     float wide = voxel_levels[level].per.w * level_reach;
     if (parallel == 1) return screen.z <= wide ? kNever : -kNever;
     return wide / screen.z - ray.past;
 }
 
-// From the ray's start to t_end.
+// Traces the ray from its start to t_end.
 void walk_ray(float t_end) {
     through = 1.0;
     sheet_end = -kNever;

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace heddle::cli {
+
+enum class ValueKind : std::uint8_t {
+    Flag,    ///< no value
+    Text,    ///< any
+    Choice,  ///< one of `words`
+    Integer, ///< in [lo, hi]
+    Numbers, ///< least to most finite numbers in [lo, hi], joined by `separator`
+    Bytes    ///< 4G, 1500M
+};
+
+/// What an option takes: parsed, checked and printed from this alone.
+struct Values {
+    ValueKind kind = ValueKind::Text;
+    std::vector<std::string> words{};
+    double lo = 0.0, hi = 0.0;
+    bool above = false; ///< lo itself is not allowed
+    int least = 1, most = 1;
+    char separator = ',';
+
+    /// "1 to 8", "> 0", "columns or mask"; empty where anything goes.
+    [[nodiscard]] std::string range() const;
+    /// What is wrong with `text` as a value, as "'x' is not ..."; empty if nothing is.
+    [[nodiscard]] std::string problem(const std::string& text) const;
+};
+
+[[nodiscard]] Values flag();
+[[nodiscard]] Values any_text();
+[[nodiscard]] Values one_of(std::vector<std::string> words);
+[[nodiscard]] Values integer(std::int64_t lo, std::int64_t hi);
+[[nodiscard]] Values number(double lo, double hi);
+[[nodiscard]] Values positive();
+/// `least` or `most` numbers, joined by `separator`.
+[[nodiscard]] Values
+numbers(int least, int most, double lo, double hi, char separator = ',', bool above = false);
+[[nodiscard]] Values bytes();
+
+} // namespace heddle::cli

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace heddle {
+
+/// A built-in yarn: one of the files in presets/, which the build puts into the library.
+struct YarnPreset {
+    std::string_view name; ///< the file's stem
+    std::string_view toml;
+};
+
+/// All of them, ascending by name.
+[[nodiscard]] std::span<const YarnPreset> yarn_presets();
+
+} // namespace heddle
