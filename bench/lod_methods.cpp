@@ -8,6 +8,7 @@
 #include <heddle/sggx/pack.h>
 #include <heddle/sggx/test_reduce.h>
 #include <heddle/sggx/wasserstein.h>
+#include <heddle/voxel/leaf_voxels.h>
 
 #include <algorithm>
 #include <chrono>
@@ -64,32 +65,16 @@ DirectionSums sums_of(const Lobe& lobe, const Coverage& coverage, bool normals) 
     return s;
 }
 
-template <typename F>
-void for_each_voxel(const VoxelGrid& grid, const F& f) {
-    for (const VoxelBlock& block : grid.blocks) {
-        std::size_t voxel = 0;
-        std::size_t lobe = 0;
-        for (const VoxelLeaf& leaf : block.leaves) {
-            for (std::int32_t i = 0; i < 512; ++i) {
-                if ((leaf.active[static_cast<std::size_t>(i / 64)] >> (i % 64) & 1) == 0) continue;
-                f(leaf.origin + Vec3i{i / 64, i / 8 % 8, i % 8}, block, voxel, lobe);
-                lobe += block.lobe_count[voxel++];
-            }
-        }
-    }
-}
-
 Finest load(const std::string& path) {
     const std::unique_ptr<VoxelGrid> grid = read_vdb(path);
     std::vector<std::pair<std::uint64_t, std::vector<DirectionSums>>> voxels;
-    for_each_voxel(*grid, [&](Vec3i at, const VoxelBlock& b, std::size_t v, std::size_t l) {
+    for_each_voxel(*grid, [&](const BlockVoxel& v) {
         std::vector<DirectionSums> lobes;
-        for (std::size_t k = l; k < l + b.lobe_count[v]; ++k) {
-            const Material& material = grid->about.materials[b.lobes[k].material];
-            lobes.push_back(
-                sums_of(b.lobes[k], b.coverage[v], material.kind == MaterialKind::Surface));
+        for (const Lobe& lobe : v.lobes()) {
+            const Material& material = grid->info().materials[lobe.material];
+            lobes.push_back(sums_of(lobe, v.coverage(), material.kind == MaterialKind::Surface));
         }
-        voxels.emplace_back(morton(at), std::move(lobes));
+        voxels.emplace_back(morton(v.at), std::move(lobes));
     });
     std::sort(voxels.begin(), voxels.end(),
               [](const auto& a, const auto& b) { return a.first < b.first; });

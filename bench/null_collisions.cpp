@@ -155,7 +155,7 @@ void run(const std::string& path, std::size_t count) {
         };
         static_cast<void>(measure(rays, track)); // bricks' majorants are known then
         const Cost walked = measure(rays, walk), drawn = measure(rays, track);
-        std::printf("| %d | %.0f | %.0f | %.2f | %.4f | %.4f |\n", grid->about.level,
+        std::printf("| %d | %.0f | %.0f | %.2f | %.4f | %.4f |\n", grid->info().level,
                     walked.nanoseconds, drawn.nanoseconds, drawn.nanoseconds / walked.nanoseconds,
                     walked.passed, drawn.passed);
     }

@@ -29,7 +29,7 @@ void run(int argc, char** argv) {
     const PreviewImage image = render_preview(grid, options, progress);
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
     std::printf("%.2f M voxels: %.2f s, %.1f MiB over the voxels\n",
-                static_cast<double>(grid.about.voxel_count) * 1e-6, time.count(),
+                static_cast<double>(grid.info().voxel_count) * 1e-6, time.count(),
                 (static_cast<double>(peak_resident_bytes()) - before) / 1048576.0);
     if (argc < 3) return;
     std::ofstream out(argv[2], std::ios::binary);

@@ -33,7 +33,7 @@ void run(double million, const std::string& path) {
         leaves += b.leaves.size();
         bytes += b.byte_count();
     }
-    const auto voxels = static_cast<double>(grid.about.voxel_count);
+    const auto voxels = static_cast<double>(grid.info().voxel_count);
     std::printf("%.2f M voxels, %.2f M leaves, fill %.2f, source %.1f MiB, peak %.1f MiB\n",
                 voxels * 1e-6, static_cast<double>(leaves) * 1e-6,
                 voxels / 512.0 / static_cast<double>(leaves),
@@ -47,8 +47,8 @@ void run(double million, const std::string& path) {
     std::printf("write %.2f s (%.2f s of CPU), %.2f bytes a voxel, peak %.1f MiB\n", now() - t,
                 static_cast<double>(std::clock() - work) / CLOCKS_PER_SEC, size / voxels,
                 static_cast<double>(peak_resident_bytes()) / 1048576.0);
-    const VdbBytes predicted = predict_vdb_bytes(static_cast<std::int64_t>(leaves),
-                                                 grid.about.voxel_count, grid.about.lobe_count, {});
+    const VdbBytes predicted = predict_vdb_bytes(
+        static_cast<std::int64_t>(leaves), grid.info().voxel_count, grid.info().lobe_count, {});
     std::printf("predicted: %.2f bytes a voxel, memory %.1f MiB over the source\n",
                 static_cast<double>(predicted.file) / voxels,
                 static_cast<double>(predicted.memory) / 1048576.0);
@@ -56,7 +56,7 @@ void run(double million, const std::string& path) {
     const std::string hash = content_hash(path);
     std::printf("content_hash %s in %.2f s\n", hash.c_str(), now() - t);
     t = now();
-    const bool same = read_vdb(path)->about.voxel_count == grid.about.voxel_count;
+    const bool same = read_vdb(path)->info().voxel_count == grid.info().voxel_count;
     std::printf("read %.2f s (%s), peak %.1f MiB\n", now() - t, same ? "same count" : "WRONG",
                 static_cast<double>(peak_resident_bytes()) / 1048576.0);
 }

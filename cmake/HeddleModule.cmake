@@ -3,7 +3,7 @@
 # cmake/HeddleLibrary.cmake and HeddleInstall.cmake make and install heddle::heddle of what the calls record in global
 # properties: the rooms that are installed, their public headers and the foreign libraries that they link.
 # the core: a C++20 compiler, and oneTBB or std::thread
-set(HEDDLE_CORE_ROOMS base executor geom sggx voxel yarn surface voxelize/block voxelize/chord voxelize/fiber
+set(HEDDLE_CORE_ROOMS base executor geom sggx voxel leaf_table flake yarn surface voxelize/block voxelize/chord voxelize/fiber
   voxelize/triangle voxelize lod device/level device)
 add_library(heddle_flags INTERFACE)
 set(_w -Wall -Wextra -Wshadow -Wconversion -Wdouble-promotion -Wundef -Wnon-virtual-dtor -Woverloaded-virtual -ffp-contract=off

@@ -4,13 +4,14 @@
 A room stands below all rooms that it may include. A line joins it to those that no other line leads to. The colours are the
 groups of the table. With --check nothing is written: the exit code says whether the file is what would be written.
 """
+import argparse
 import pathlib
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 BOX_WIDTH, BOX_HEIGHT, GAP, ROW, MARGIN, LINE_GAP = 104, 26, 14, 62, 20, 12
 ORDER_SWEEPS, STRAIGHTEN_SWEEPS = 60, 600
-COLORS = ["#cfe3f7", "#d9efd0", "#fde8b8", "#f6d0d8", "#e2d6f3", "#d8dde2"]
+COLORS = ["#cfe3f7", "#d9efd0", "#fde8b8", "#f6d0d8", "#d3eeee", "#e2d6f3", "#d8dde2"]
 
 
 def read_table(path):
@@ -127,10 +128,12 @@ def straighten(rows, pieces):
     above, below = neighbours_of(pieces)
     x = {node: place for row in rows for node, place in zip(row, offsets(row))}
     for _ in range(STRAIGHTEN_SWEEPS):
+        middle = sum(x.values()) / len(x)  # pulls a little, so that parts with few lines do not drift away
         for row in rows + rows[::-1]:
             wanted = {}
             for node in row:
                 near = [(x[n], 1 if isinstance(n, str) else 30) for n in above.get(node, []) + below.get(node, [])]
+                near.append((middle, 0.3))
                 weight = sum(w for _, w in near)
                 wanted[node] = sum(place * w for place, w in near) / weight
             x.update(spread(row, wanted))
@@ -166,16 +169,17 @@ def draw(below, group_of, groups):
     return "\n".join(out) + "\n</svg>\n"
 
 
-def main(arguments):
-    check = "--check" in arguments
-    names = [a for a in arguments if a != "--check"]
-    path = pathlib.Path(names[0]) if names else ROOT / "docs/images/rooms.svg"
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("picture", nargs="?", type=pathlib.Path, default=ROOT / "docs/images/rooms.svg")
+    parser.add_argument("--check", action="store_true", help="only compare with the picture that is there")
+    arguments = parser.parse_args()
     text = draw(*read_table(ROOT / "cmake/layers.txt"))
-    if not check:
-        path.write_text(text)
-    elif not path.exists() or path.read_text() != text:
-        sys.exit(f"{path}: not what cmake/layers.txt gives; run python3 tools/draw_rooms.py")
+    if not arguments.check:
+        arguments.picture.write_text(text)
+    elif not arguments.picture.exists() or arguments.picture.read_text() != text:
+        sys.exit(f"{arguments.picture}: not what cmake/layers.txt gives; run python3 tools/draw_rooms.py")
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main()

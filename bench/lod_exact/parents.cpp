@@ -4,6 +4,7 @@
 #include <heddle/base/platform.h>
 #include <heddle/base/random.h>
 #include <heddle/sggx/pack.h>
+#include <heddle/voxel/leaf_voxels.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,24 +21,6 @@ constexpr std::size_t kGrain = 64 * 1024;
 std::uint64_t hash_of(Vec3i at) {
     const auto word = [](std::int32_t x) { return std::uint64_t{static_cast<std::uint32_t>(x)}; };
     return hash64(kSeed, word(at.x) << 32 | word(at.y), word(at.z));
-}
-
-/// Calls visit(voxel, block, number of the voxel in the block, of its first lobe).
-template <typename Visit>
-void for_each_voxel(const VoxelSource& source, const Visit& visit) {
-    VoxelBlock scratch;
-    for (std::size_t b = 0; b < source.block_count(); ++b) {
-        const VoxelBlock& block = source.block(b, scratch);
-        for (const VoxelLeaf& leaf : block.leaves) {
-            std::size_t voxel = leaf.first_voxel;
-            std::size_t lobe = leaf.first_lobe;
-            for (int i = 0; i < 512; ++i) {
-                if ((leaf.active[static_cast<std::size_t>(i >> 6)] >> (i & 63) & 1u) == 0) continue;
-                visit(leaf.origin + Vec3i{i >> 6, i >> 3 & 7, i & 7}, block, voxel, lobe);
-                lobe += block.lobe_count[voxel++];
-            }
-        }
-    }
 }
 
 void add_moment(PooledMoment& sum, const std::array<std::int64_t, 6>& moment, double weight) {
@@ -93,11 +76,11 @@ Parents::Parents(const VoxelSource& level, std::size_t most) : level_(level.info
         lo_[a] = std::numeric_limits<std::int32_t>::max();
         hi[a] = std::numeric_limits<std::int32_t>::min();
     }
-    for_each_voxel(level, [&](Vec3i at, const VoxelBlock&, std::size_t, std::size_t) {
-        voxels_.push_back(at);
+    for_each_voxel(level, [&](const BlockVoxel& v) {
+        voxels_.push_back(v.at);
         for (int a = 0; a < 3; ++a) {
-            lo_[a] = std::min(lo_[a], at[a]);
-            hi[a] = std::max(hi[a], at[a] + 1);
+            lo_[a] = std::min(lo_[a], v.at[a]);
+            hi[a] = std::max(hi[a], v.at[a] + 1);
         }
     });
     there_ = voxels_.size();
@@ -174,15 +157,15 @@ void Parents::add_below(const Parents& below) {
 
 void Parents::pool(const VoxelSource& finest) {
     const bool tangents = finest.info().fields.tangents;
-    for_each_voxel(finest, [&](Vec3i at, const VoxelBlock& block, std::size_t v, std::size_t lobe) {
-        const std::uint32_t to = find({at.x >> level_, at.y >> level_, at.z >> level_});
+    for_each_voxel(finest, [&](const BlockVoxel& v) {
+        const std::uint32_t to = find({v.at.x >> level_, v.at.y >> level_, v.at.z >> level_});
         if (to >= kNotChosen) return;
         PooledMoment* sums = &pooled_[to * kKinds];
-        for (std::size_t i = lobe; i < lobe + block.lobe_count[v]; ++i) {
-            const LobeMoment& m = block.moments[i];
+        for (std::size_t i = v.lobe; i < v.lobe + v.lobe_count(); ++i) {
+            const LobeMoment& m = v.block.moments[i];
             add_moment(sums[0], m.moment, static_cast<double>(m.weight));
             if (!tangents) continue;
-            const std::array<std::int64_t, 6>& t = block.map_sums[i].tangent;
+            const std::array<std::int64_t, 6>& t = v.block.map_sums[i].tangent;
             add_moment(sums[1], t, static_cast<double>(t[0] + t[1] + t[2]));
         }
     });
@@ -190,10 +173,11 @@ void Parents::pool(const VoxelSource& finest) {
 
 std::vector<Mixture> decode(const VoxelSource& level, const Parents& parents) {
     std::vector<Mixture> mixtures(parents.size());
-    for_each_voxel(level, [&](Vec3i at, const VoxelBlock& block, std::size_t v, std::size_t lobe) {
-        const std::uint32_t to = parents.find(at);
+    for_each_voxel(level, [&](const BlockVoxel& v) {
+        const std::uint32_t to = parents.find(v.at);
         if (to >= Parents::kNotChosen) return;
-        for (std::size_t i = lobe; i < lobe + block.lobe_count[v]; ++i) {
+        const VoxelBlock& block = v.block;
+        for (std::size_t i = v.lobe; i < v.lobe + v.lobe_count(); ++i) {
             const auto weight = static_cast<double>(block.lobes[i].weight);
             mixtures[to].lobes[0].push_back({unpack(block.lobes[i].sggx), weight});
             if (block.tangents.empty() || block.tangents[i].sigma[0] == 0) continue;

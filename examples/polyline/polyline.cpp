@@ -16,11 +16,10 @@ int main() {
     const heddle::VoxelizePlan plan = heddle::plan_voxelize(geometry, options, progress);
     const auto voxels = heddle::voxelize(geometry, options, plan, progress);
     std::int64_t count = 0;
-    heddle::VoxelBlock scratch;
-    for (std::size_t b = 0; b < voxels->block_count(); ++b) {
-        for (const heddle::Coverage& c : voxels->block(b, scratch).coverage) {
-            if (++count == 1) std::printf("first voxel: occupancy %g\n", c.occupancy / 65535.0);
-        }
-    }
+    heddle::for_each_voxel(*voxels, [&](const heddle::BlockVoxel& voxel) {
+        if (++count > 1) return;
+        std::printf("first voxel: %d %d %d, occupancy %g, lobes %zu\n", voxel.at.x, voxel.at.y,
+                    voxel.at.z, voxel.coverage().occupancy / 65535.0, voxel.lobes().size());
+    });
     std::printf("%lld voxels\n", static_cast<long long>(count));
 }

@@ -13,6 +13,7 @@
 #include <heddle/lod/rebuild_levels.h>
 #include <heddle/sggx/pack.h>
 #include <heddle/sggx/sggx.h>
+#include <heddle/voxel/leaf_voxels.h>
 #include <heddle/voxel/voxel_grid.h>
 #include <heddle/voxelize/voxelize.h>
 

@@ -17,10 +17,10 @@ class EditMaterials : public ::testing::Test {
 protected:
     void SetUp() override {
         VoxelGrid grid = heddle::testing::make_helix(6.0, 1.0, 1);
-        grid.about.materials[0].name = "cotton";
-        grid.about.materials[1].name = "";
-        grid.about.materials[2].name = "a.b";
-        grid.about.materials[2].kind = MaterialKind::Surface;
+        grid.info().materials[0].name = "cotton";
+        grid.info().materials[1].name = "";
+        grid.info().materials[2].name = "a.b";
+        grid.info().materials[2].kind = MaterialKind::Surface;
         path_ = folder_.file("a.vdb");
         write_vdb(grid, path_, silent_);
         hash_ = content_hash(path_);

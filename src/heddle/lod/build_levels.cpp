@@ -7,6 +7,7 @@
 #include <heddle/lod/correlation.h>
 #include <heddle/lod/join_pieces.h>
 #include <heddle/voxel/block_keeper.h>
+#include <heddle/voxel/index_box.h>
 
 #include <algorithm>
 #include <bit>
@@ -52,41 +53,20 @@ level_options(const LodOptions& options, const VoxelGridInfo& info, bool with_co
     return out;
 }
 
-/// First and last voxel that is there.
-struct VoxelBox {
-    Vec3i lo{std::numeric_limits<int>::max(), std::numeric_limits<int>::max(),
-             std::numeric_limits<int>::max()};
-    Vec3i hi{std::numeric_limits<int>::min(), std::numeric_limits<int>::min(),
-             std::numeric_limits<int>::min()};
-
-    void grow(Vec3i a, Vec3i b) {
-        for (int k = 0; k < 3; ++k) {
-            lo[k] = std::min(lo[k], a[k]);
-            hi[k] = std::max(hi[k], b[k]);
-        }
-    }
-    void grow(const VoxelLeaf& leaf) {
-        for (int x = 0; x < 8; ++x) {
-            for (std::uint64_t w = leaf.active[static_cast<std::size_t>(x)]; w != 0; w &= w - 1) {
-                const int bit = std::countr_zero(w);
-                const Vec3i at = leaf.origin + Vec3i{x, bit >> 3, bit & 7};
-                grow(at, at);
+/// The box of a level's open voxels.
+IndexBox box_of(const OpenLevel& level) {
+    IndexBox box;
+    const int n = level.edge();
+    for (int x = 0; x < n; ++x) {
+        for (int y = 0; y < n; ++y) {
+            for (int z = 0; z < n; ++z) {
+                if (level.slot[level.cell({x, y, z})] == OpenLevel::kNone) continue;
+                box.grow(level.origin + Vec3i{x, y, z});
             }
         }
     }
-    void grow(const OpenLevel& level) {
-        const int n = level.edge();
-        for (int x = 0; x < n; ++x) {
-            for (int y = 0; y < n; ++y) {
-                for (int z = 0; z < n; ++z) {
-                    if (level.slot[level.cell({x, y, z})] == OpenLevel::kNone) continue;
-                    const Vec3i at = level.origin + Vec3i{x, y, z};
-                    grow(at, at);
-                }
-            }
-        }
-    }
-};
+    return box;
+}
 
 /// What one thread works with, kept from block to block.
 struct Workspace {
@@ -117,19 +97,19 @@ struct Workspace {
 
 std::unique_ptr<VoxelGrid> make_grid(const VoxelGridInfo& info, std::vector<VoxelBlock> blocks) {
     auto grid = std::make_unique<VoxelGrid>();
-    grid->about = info;
-    grid->about.voxel_count = 0;
-    grid->about.lobe_count = 0;
+    grid->info() = info;
+    grid->info().voxel_count = 0;
+    grid->info().lobe_count = 0;
     for (const VoxelBlock& b : blocks) {
-        grid->about.voxel_count += static_cast<std::int64_t>(b.coverage.size());
-        grid->about.lobe_count += static_cast<std::int64_t>(b.lobes.size());
+        grid->info().voxel_count += static_cast<std::int64_t>(b.coverage.size());
+        grid->info().lobe_count += static_cast<std::int64_t>(b.lobes.size());
     }
     grid->blocks = std::move(blocks);
     return grid;
 }
 
-bool has_correlation(const VoxelGrid& grid) {
-    return std::any_of(grid.blocks.begin(), grid.blocks.end(),
+bool has_correlation(const std::vector<VoxelBlock>& blocks) {
+    return std::any_of(blocks.begin(), blocks.end(),
                        [](const VoxelBlock& b) { return !b.correlation.empty(); });
 }
 
@@ -181,7 +161,7 @@ struct LevelBuilder::State {
     std::unique_ptr<UpperLevels> upper;
     Lender<Workspace> workspaces;
     std::mutex mutex;
-    VoxelBox box;
+    IndexBox box;
     double seconds = 0.0;
     std::array<std::vector<KeptColumns>, kBlockLevel + 1> kept; ///< with fields.correlation
 
@@ -221,9 +201,9 @@ void LevelBuilder::begin(const VoxelGridInfo& info,
     s.info = info;
     s.options = level_options(options_, info, with_columns_);
     s.blocks.assign(blocks.begin(), blocks.end());
-    VoxelBox box;
+    IndexBox box;
     for (const Vec3i& b : blocks) {
-        box.grow(b * kBlockVoxels, b * kBlockVoxels + Vec3i{31, 31, 31});
+        box.grow(IndexBox{b * kBlockVoxels, b * kBlockVoxels + Vec3i{31, 31, 31}});
     }
     s.top = blocks.empty() ? 0 : std::min(options_.max_levels, level_count(box.lo, box.hi));
     for (int l = 1; l <= s.top; ++l) {
@@ -263,10 +243,9 @@ void LevelBuilder::visit(std::size_t rank, const VoxelBlock& block) {
             s.kept[0][rank] = work.level[0].columns;
         }
         if (s.top > kBlockLevel) top = take_upper(work.level[kBlockLevel]);
-        VoxelBox box;
-        box.grow(work.level[0]);
+        const IndexBox box = box_of(work.level[0]);
         const std::scoped_lock lock(s.mutex);
-        if (!work.level[0].voxels.empty()) s.box.grow(box.lo, box.hi);
+        s.box.grow(box);
     });
     s.upper->take(rank, std::move(top));
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
@@ -296,11 +275,11 @@ void LevelBuilder::accept(std::size_t rank, const VoxelBlock& block, BuiltBlock&
         s.store(l, rank, built.level[static_cast<std::size_t>(l - 1)]);
     }
     s.upper->take(rank, std::move(built.top));
-    VoxelBox box;
-    for (const VoxelLeaf& leaf : block.leaves) box.grow(leaf);
+    IndexBox box;
+    for (const VoxelLeaf& leaf : block.leaves) box.grow(box_of(leaf));
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     const std::scoped_lock lock(s.mutex);
-    if (!block.leaves.empty()) s.box.grow(box.lo, box.hi);
+    s.box.grow(box);
     s.seconds += spent.count();
 }
 
@@ -327,15 +306,15 @@ VoxelLevels LevelBuilder::finish(std::unique_ptr<VoxelSource> level0) {
     State& s = *state_;
     VoxelLevels levels;
     levels.push_back(std::move(level0));
-    const int needed = s.box.lo.x > s.box.hi.x ? 0 : level_count(s.box.lo, s.box.hi);
+    const int needed = s.box.empty() ? 0 : level_count(s.box.lo, s.box.hi);
     const int top = std::min(s.top, needed);
-    auto* finest = dynamic_cast<VoxelGrid*>(levels[0].get());
-    if (finest != nullptr && !has_correlation(*finest)) fill_shared(0, finest->blocks);
+    std::vector<VoxelBlock>* const finest = levels[0]->blocks_in_memory();
+    if (finest != nullptr && !has_correlation(*finest)) fill_shared(0, *finest);
     for (int l = 1; l <= top; ++l) {
         std::unique_ptr<VoxelSource> made;
         if (l <= kWholeLeafLevel) {
             made = s.whole[static_cast<std::size_t>(l - 1)]->finish();
-            if (auto* grid = dynamic_cast<VoxelGrid*>(made.get())) fill_shared(l, grid->blocks);
+            if (auto* const blocks = made->blocks_in_memory()) fill_shared(l, *blocks);
         } else {
             const auto at = static_cast<std::size_t>(l - kWholeLeafLevel - 1);
             fill_shared(l, s.pieces[at]);
@@ -344,12 +323,13 @@ VoxelLevels LevelBuilder::finish(std::unique_ptr<VoxelSource> level0) {
         levels.push_back(std::move(made));
     }
     for (std::size_t l = 0; l < levels.size(); ++l) {
-        VoxelGridInfo& info = levels[l]->about;
+        VoxelGridInfo info = levels[l]->info();
         info.level = static_cast<std::int32_t>(l);
         info.lattice = lattice_of_level(s.info.lattice, static_cast<int>(l));
         info.lod = top > 0 ? name_of(options_.method) : "";
         if (l > 0) info.fields = s.options.fields;
         info.max_lobes = l > 0 ? s.options.merge.max_lobes : info.max_lobes;
+        levels[l]->set_info(std::move(info));
     }
     return levels;
 }

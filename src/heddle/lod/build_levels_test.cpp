@@ -52,19 +52,19 @@ struct Truth {
 std::map<Key, Truth> pool(const VoxelSource& finest, int level) {
     const int n = finest.info().lattice.subvoxels;
     std::map<Key, Truth> truths;
-    for_each_voxel(finest, [&](const FoundVoxel& v) {
+    for_each_voxel(finest, [&](const BlockVoxel& v) {
         Truth& t = truths[parent_of(v.at, level)];
-        t.hits += (std::int64_t{v.coverage.occupancy} * n * n * n + 32767) / 65535;
+        t.hits += (std::int64_t{v.coverage().occupancy} * n * n * n + 32767) / 65535;
         for (int axis = 0; axis < 3; ++axis) {
             const int p = axis == 0 ? 1 : 0;
             const int q = axis == 2 ? 1 : 2;
             for (int bit = 0; bit < n * n; ++bit) {
-                if ((v.columns[static_cast<std::size_t>(axis)] >> bit & 1) == 0) continue;
+                if ((v.columns()[static_cast<std::size_t>(axis)] >> bit & 1) == 0) continue;
                 t.columns[static_cast<std::size_t>(axis)].emplace(v.at[p] * n + bit % n,
                                                                   v.at[q] * n + bit / n);
             }
         }
-        for (const LobeMoment& m : v.moments) {
+        for (const LobeMoment& m : v.moments()) {
             for (std::size_t k = 0; k < 6; ++k) t.moment[k] += static_cast<double>(m.moment[k]);
             t.weight += static_cast<double>(m.weight);
         }
@@ -169,7 +169,7 @@ TEST(BuildLevels, EndWithAtMostTwoVoxelsAnAxis) {
     const auto widest = [](const VoxelSource& level) {
         Vec3i lo{1 << 30, 1 << 30, 1 << 30};
         Vec3i hi = lo * -1;
-        for_each_voxel(level, [&](const FoundVoxel& v) {
+        for_each_voxel(level, [&](const BlockVoxel& v) {
             for (int a = 0; a < 3; ++a) {
                 lo[a] = std::min(lo[a], v.at[a]);
                 hi[a] = std::max(hi[a], v.at[a]);
@@ -296,12 +296,14 @@ TEST(BuildLevels, WhereALevelCannotHaveWhatNeighboursShareNoneHas) {
     Progress silent;
     VoxelLevels cut = build(swatch(), options); // fewer levels than there will be, and no masks
     cut.resize(2);
-    for (VoxelBlock& block : dynamic_cast<VoxelGrid&>(*cut[0]).blocks) {
+    for (VoxelBlock& block : *cut[0]->blocks_in_memory()) {
         block.columns = {};
         block.moments = {};
         block.map_sums = {};
     }
-    cut[0]->about.fields.masks = false;
+    VoxelGridInfo info = cut[0]->info();
+    info.fields.masks = false;
+    cut[0]->set_info(info);
     const VoxelLevels levels[2] = {rebuild_levels(std::move(cut), {}, false, silent),
                                    rebuild_levels(build(swatch(), options), naive, true, silent)};
     for (const VoxelLevels& of : levels) {
@@ -309,9 +311,9 @@ TEST(BuildLevels, WhereALevelCannotHaveWhatNeighboursShareNoneHas) {
         for (const auto& level : of) {
             EXPECT_EQ(level->info().fields.footprints, 0);
             EXPECT_FALSE(level->info().fields.correlation);
-            for_each_voxel(*level, [&](const FoundVoxel& v) {
-                ASSERT_EQ(v.footprints, (std::array<std::uint64_t, 3>{}));
-                ASSERT_EQ(v.correlation, (std::array<std::uint8_t, 3>{}));
+            for_each_voxel(*level, [&](const BlockVoxel& v) {
+                ASSERT_EQ(v.footprints(), (std::array<std::uint64_t, 3>{}));
+                ASSERT_EQ(v.correlation(), (std::array<std::uint8_t, 3>{}));
             });
         }
     }
@@ -319,7 +321,7 @@ TEST(BuildLevels, WhereALevelCannotHaveWhatNeighboursShareNoneHas) {
 
 TEST(BuildLevels, WithoutColumnsTransparenciesMultiplyAlongAndAverageAcross) {
     auto grid = std::make_unique<VoxelGrid>();
-    grid->about.materials.resize(1);
+    grid->info().materials.resize(1);
     VoxelBlock& block = grid->blocks.emplace_back();
     VoxelLeaf leaf{.origin = {0, 0, 0}};
     leaf.active[0] = 1;                           // voxel (0, 0, 0)
@@ -331,7 +333,7 @@ TEST(BuildLevels, WithoutColumnsTransparenciesMultiplyAlongAndAverageAcross) {
         block.lobe_count.push_back(1);
         block.lobes.push_back({pack({0.25f, 0.25f, 0.25f, 0, 0, 0}), 255, 0});
     }
-    grid->about.voxel_count = grid->about.lobe_count = 3;
+    grid->info().voxel_count = grid->info().lobe_count = 3;
     VoxelLevels levels;
     levels.push_back(std::move(grid));
     Progress silent;
@@ -365,11 +367,11 @@ TEST(BuildLevels, CrossedBundlesKeepTwoLobesUpToTheTop) {
         ASSERT_GE(levels.size(), 3u);
         for (std::size_t l = 1; l < levels.size(); ++l) {
             bool two = false;
-            for_each_voxel(*levels[l], [&](const FoundVoxel& v) {
-                two = two || v.lobes.size() > 1;
+            for_each_voxel(*levels[l], [&](const BlockVoxel& v) {
+                two = two || v.lobes().size() > 1;
                 const auto sigma = [&](Vec3f w) {
                     double sum = 0.0, total = 0.0;
-                    for (const Lobe& lobe : v.lobes) {
+                    for (const Lobe& lobe : v.lobes()) {
                         sum +=
                             lobe.weight * static_cast<double>(projected_area(unpack(lobe.sggx), w));
                         total += lobe.weight;
@@ -377,7 +379,7 @@ TEST(BuildLevels, CrossedBundlesKeepTwoLobesUpToTheTop) {
                     return sum / total;
                 };
                 double x = 0.0, y = 0.0, all = 0.0;
-                for (const Lobe& lobe : v.lobes) {
+                for (const Lobe& lobe : v.lobes()) {
                     const SymmetricMatrix S = unpack(lobe.sggx);
                     (S.xx > S.yy ? x : y) += lobe.weight;
                     all += lobe.weight;
@@ -404,9 +406,9 @@ TEST(BuildLevels, EveryMethodBuildsEveryLevelAndBaselinesHaveOneLobe) {
         const bool mixture = m <= static_cast<std::size_t>(LodMethod::Wasserstein);
         EXPECT_EQ(levels[1]->info().lod, kLodMethodNames[m]);
         std::size_t most = 0;
-        for_each_voxel(*levels[3], [&](const FoundVoxel& v) {
-            most = std::max(most, v.lobes.size());
-            for (const Lobe& lobe : v.lobes) EXPECT_TRUE(is_positive_definite(lobe.sggx));
+        for_each_voxel(*levels[3], [&](const BlockVoxel& v) {
+            most = std::max(most, v.lobes().size());
+            for (const Lobe& lobe : v.lobes()) EXPECT_TRUE(is_positive_definite(lobe.sggx));
         });
         EXPECT_EQ(most, mixture ? 3u : 1u) << kLodMethodNames[m];
     }
@@ -417,12 +419,12 @@ TEST(BuildLevels, MaterialsStayApartWhileThereAreLobesForThem) {
     const std::size_t top = levels.size() - 1;
     for (std::size_t l = 1; l <= top; ++l) {
         std::map<Key, std::set<int>> below;
-        for_each_voxel(*levels[l - 1], [&](const FoundVoxel& v) {
-            for (const Lobe& lobe : v.lobes) below[parent_of(v.at, 1)].insert(lobe.material);
+        for_each_voxel(*levels[l - 1], [&](const BlockVoxel& v) {
+            for (const Lobe& lobe : v.lobes()) below[parent_of(v.at, 1)].insert(lobe.material);
         });
-        for_each_voxel(*levels[l], [&](const FoundVoxel& v) {
+        for_each_voxel(*levels[l], [&](const BlockVoxel& v) {
             std::set<int> here;
-            for (const Lobe& lobe : v.lobes) here.insert(lobe.material);
+            for (const Lobe& lobe : v.lobes()) here.insert(lobe.material);
             EXPECT_EQ(here, below.at({v.at.x, v.at.y, v.at.z})) << "level " << l;
         });
     }

@@ -1,31 +1,23 @@
 #include <heddle/lod/correlation.h>
 
 #include <heddle/base/parallel.h>
+#include <heddle/leaf_table/index_table.h>
+#include <heddle/voxel/leaf_voxels.h>
 
 #include <algorithm>
 #include <bit>
-#include <map>
 #include <tuple>
 
 namespace heddle {
 namespace {
 
-using Index = std::map<std::tuple<int, int, int>, std::size_t>;
-
-Index number(std::span<const Vec3i> index) {
-    Index out;
-    for (std::size_t i = 0; i < index.size(); ++i) {
-        out[{index[i].x, index[i].y, index[i].z}] = i;
-    }
+IndexTable number(std::span<const Vec3i> index) {
+    IndexTable out;
+    for (const Vec3i at : index) out.add(at);
     return out;
 }
 
 constexpr std::size_t kNone = ~std::size_t{0};
-
-std::size_t find(const Index& numbers, Vec3i at) {
-    const auto found = numbers.find({at.x, at.y, at.z});
-    return found == numbers.end() ? kNone : found->second;
-}
 
 /// Number of the voxel at `at` in its block; kNone where it is not there.
 std::size_t find_voxel(const VoxelBlock& block, Vec3i at) {
@@ -96,7 +88,7 @@ void fill_correlation(std::span<const Vec3i> index,
                       std::span<const KeptColumns> kept,
                       int level,
                       double columns) {
-    const Index numbers = number(index);
+    const IndexTable numbers = number(index);
     const std::size_t words = std::size_t{1} << (2 * level);
     const int shift = kBlockLevel - level;
     parallel_chunks(blocks.size(), 1, [&](std::size_t b, std::size_t) {
@@ -105,31 +97,23 @@ void fill_correlation(std::span<const Vec3i> index,
         const auto face_of = [&](std::size_t of, std::size_t voxel, int axis) {
             return kept[of].data() + (3 * voxel + static_cast<std::size_t>(axis)) * words;
         };
-        for (const VoxelLeaf& leaf : block.leaves) {
-            std::size_t v = leaf.first_voxel;
-            for (int x = 0; x < 8; ++x) {
-                for (std::uint64_t w = leaf.active[static_cast<std::size_t>(x)]; w != 0;
-                     w &= w - 1, ++v) {
-                    const int bit = std::countr_zero(w);
-                    const Vec3i at = leaf.origin + Vec3i{x, bit >> 3, bit & 7};
-                    std::array<std::uint8_t, 3>& rho = block.correlation.emplace_back();
-                    for (int axis = 0; axis < 3; ++axis) {
-                        const Vec3i next = next_along(at, axis);
-                        const std::size_t there =
-                            find(numbers, {next.x >> shift, next.y >> shift, next.z >> shift});
-                        if (there == kNone) continue;
-                        const std::size_t voxel = find_voxel(blocks[there], next);
-                        if (voxel == kNone) continue;
-                        Counts sum;
-                        const std::uint64_t* p = face_of(b, v, axis);
-                        const std::uint64_t* q = face_of(there, voxel, axis);
-                        for (std::size_t k = 0; k < words; ++k) sum.add(p[k], q[k]);
-                        rho[static_cast<std::size_t>(axis)] =
-                            correlation_of(sum.first, sum.second, sum.both, columns);
-                    }
-                }
+        for_each_voxel(block, [&](const BlockVoxel& v) {
+            std::array<std::uint8_t, 3>& rho = block.correlation.emplace_back();
+            for (int axis = 0; axis < 3; ++axis) {
+                const Vec3i next = next_along(v.at, axis);
+                const std::uint32_t there =
+                    numbers.find({next.x >> shift, next.y >> shift, next.z >> shift});
+                if (there == IndexTable::kNone) continue;
+                const std::size_t voxel = find_voxel(blocks[there], next);
+                if (voxel == kNone) continue;
+                Counts sum;
+                const std::uint64_t* p = face_of(b, v.voxel, axis);
+                const std::uint64_t* q = face_of(there, voxel, axis);
+                for (std::size_t k = 0; k < words; ++k) sum.add(p[k], q[k]);
+                rho[static_cast<std::size_t>(axis)] =
+                    correlation_of(sum.first, sum.second, sum.both, columns);
             }
-        }
+        });
     });
 }
 
@@ -137,14 +121,14 @@ void fill_upper_correlation(std::span<const Vec3i> index,
                             std::span<VoxelBlock> blocks,
                             std::span<const std::array<UpperVoxel::Runs, 3>> kept,
                             double columns) {
-    const Index numbers = number(index);
+    const IndexTable numbers = number(index);
     parallel_chunks(blocks.size(), 1, [&](std::size_t b, std::size_t) {
         if (blocks[b].coverage.empty()) return;
         std::array<std::uint8_t, 3>& rho = blocks[b].correlation.emplace_back();
         for (int axis = 0; axis < 3; ++axis) {
             const auto a = static_cast<std::size_t>(axis);
-            const std::size_t there = find(numbers, next_along(index[b], axis));
-            if (there == kNone || blocks[there].coverage.empty()) continue;
+            const std::uint32_t there = numbers.find(next_along(index[b], axis));
+            if (there == IndexTable::kNone || blocks[there].coverage.empty()) continue;
             const Counts sum = count(kept[b][a], kept[there][a]);
             rho[a] = correlation_of(sum.first, sum.second, sum.both, columns);
         }

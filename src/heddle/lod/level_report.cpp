@@ -6,6 +6,7 @@
 #include <heddle/lod/parent_truth.h>
 #include <heddle/sggx/merge_order.h>
 #include <heddle/sggx/pack.h>
+#include <heddle/voxel/leaf_voxels.h>
 #include <heddle/voxel/z_order.h>
 
 #include <algorithm>
@@ -60,11 +61,10 @@ std::vector<Vec3i> choose_voxels(const VoxelSource& level, int wanted, std::uint
     VoxelBlock scratch;
     for (std::size_t b = 0; b < level.block_count(); ++b) {
         for (const VoxelLeaf& leaf : level.block(b, scratch).leaves) {
-            for (int i = 0; i < 512; ++i) {
-                if ((leaf.active[static_cast<std::size_t>(i >> 6)] >> (i & 63) & 1) == 0) continue;
-                const Vec3i at = leaf.origin + Vec3i{i >> 6, i >> 3 & 7, i & 7};
+            for_each_active(leaf.active, [&](std::size_t x, int bit) {
+                const Vec3i at = voxel_index(leaf.origin, x, bit);
                 all.emplace_back(hash_of(at, seed), at);
-            }
+            });
         }
         if (all.size() > 4 * n) cut();
     }
@@ -77,10 +77,10 @@ std::vector<Vec3i> choose_voxels(const VoxelSource& level, int wanted, std::uint
 
 Taken take_voxel(const VoxelIndex& level, Vec3i at) {
     Taken out;
-    level.for_each_below(0, at, [&](const VoxelIndex::Voxel& v) {
-        out.coverage = v.block.coverage[v.voxel];
+    level.for_each_below(0, at, [&](const BlockVoxel& v) {
+        out.coverage = v.coverage();
         out.count = v.block.lobe_count[v.voxel];
-        for (std::size_t i = 0; i < out.count; ++i) out.lobes[i] = v.block.lobes[v.lobe + i];
+        std::copy(v.lobes().begin(), v.lobes().end(), out.lobes.begin());
     });
     return out;
 }

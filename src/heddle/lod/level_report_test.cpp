@@ -53,9 +53,9 @@ std::vector<MethodErrors> report(const VoxelLevels& levels, int parents) {
 /// Two voxels of one parent, each with a lobe of its material, and a third to have a level above.
 VoxelLevels pair_of(const Lobe& a, const Lobe& b, MaterialKind second) {
     auto grid = std::make_unique<VoxelGrid>();
-    grid->about.materials.resize(2);
-    grid->about.materials[0].kind = MaterialKind::Fiber;
-    grid->about.materials[1].kind = second;
+    grid->info().materials.resize(2);
+    grid->info().materials[0].kind = MaterialKind::Fiber;
+    grid->info().materials[1].kind = second;
     const Coverage half{32768, 32768, 32768, 1000};
     grid->blocks = heddle::testing::make_blocks(
         {{{0, 0, 0}, {half, {a}}}, {{1, 0, 0}, {half, {b}}}, {{4, 0, 0}, {half, {a}}}});
@@ -70,20 +70,20 @@ TEST(VoxelIndex, VisitsAllVoxelsBelowOneAndNoOther) {
     const VoxelIndex index(finest);
     for (const int level : {0, 1, 2, 3, 4, 6}) {
         std::map<Key, std::set<Key>> below;
-        for_each_voxel(finest, [&](const FoundVoxel& v) {
+        for_each_voxel(finest, [&](const BlockVoxel& v) {
             below[{v.at.x >> level, v.at.y >> level, v.at.z >> level}].emplace(v.at.x, v.at.y,
                                                                                v.at.z);
         });
         for (const auto& [parent, expected] : below) {
             std::set<Key> seen;
             const auto [x, y, z] = parent;
-            index.for_each_below(level, {x, y, z}, [&](const VoxelIndex::Voxel& v) {
+            index.for_each_below(level, {x, y, z}, [&](const BlockVoxel& v) {
                 EXPECT_TRUE(seen.emplace(v.at.x, v.at.y, v.at.z).second);
             });
             ASSERT_EQ(seen, expected) << "level " << level;
         }
         int visits = 0;
-        index.for_each_below(level, {1 << 20, 0, 0}, [&](const VoxelIndex::Voxel&) { ++visits; });
+        index.for_each_below(level, {1 << 20, 0, 0}, [&](const BlockVoxel&) { ++visits; });
         EXPECT_EQ(visits, 0);
     }
 }
@@ -92,7 +92,7 @@ TEST(ParentTruth, IsTheSumOfTheChildrens) {
     double cells = 0.0;
     int parents = 0;
     const VoxelIndex finest(*file(true)[0]);
-    for_each_voxel(*file(true)[3], [&](const FoundVoxel& v) {
+    for_each_voxel(*file(true)[3], [&](const BlockVoxel& v) {
         const ParentTruth whole = pool_truth(finest, 3, v.at, {});
         ParentTruth sum;
         for (int c = 0; c < 8; ++c) {

@@ -4,6 +4,7 @@
 #include <heddle/sggx/moments.h>
 #include <heddle/sggx/pack.h>
 #include <heddle/voxel/footprint.h>
+#include <heddle/voxel/leaf_voxels.h>
 
 #include <bit>
 #include <cmath>
@@ -35,21 +36,17 @@ MapSums sums_of(const LobeMaps& maps, const PackedSggx& tangents, std::int64_t w
     return sums;
 }
 
-/// The lobes of stored voxel `v` whose first lobe is `l`.
-void open_lobes(const VoxelBlock& stored,
-                std::size_t v,
-                std::size_t l,
-                const LevelOptions& options,
-                OpenLevel& out) {
+void open_lobes(const BlockVoxel& voxel, const LevelOptions& options, OpenLevel& out) {
     constexpr double kOneVoxel = 67108864.0; // 64 units^2 at a depth of 1; no unit is known here
-    const std::size_t count = stored.lobe_count[v];
+    const VoxelBlock& stored = voxel.block;
     double per_weight = 0.0;
     if (stored.moments.empty()) {
-        for (std::size_t i = l; i < l + count; ++i) per_weight += stored.lobes[i].weight;
+        for (const Lobe& lobe : voxel.lobes()) per_weight += lobe.weight;
         per_weight =
-            kOneVoxel * mean_depth(stored.coverage[v], options.lattice.subvoxels) / per_weight;
+            kOneVoxel * mean_depth(voxel.coverage(), options.lattice.subvoxels) / per_weight;
     }
-    for (std::size_t i = l; i < l + count; ++i) {
+    const std::size_t end = voxel.lobe + voxel.lobe_count();
+    for (std::size_t i = voxel.lobe; i < end; ++i) {
         const Lobe& lobe = stored.lobes[i];
         DirectionSums& sums = out.lobes.emplace_back();
         sums.material = lobe.material;
@@ -189,33 +186,24 @@ void open_block(const VoxelBlock& stored,
     out.reset(0, block);
     const std::int64_t n = options.lattice.subvoxels;
     const CoverageRule rule = options.coverage;
-    for (const VoxelLeaf& leaf : stored.leaves) {
-        std::size_t v = leaf.first_voxel;
-        std::size_t l = leaf.first_lobe;
-        for (int x = 0; x < 8; ++x) {
-            for (std::uint64_t w = leaf.active[static_cast<std::size_t>(x)]; w != 0; w &= w - 1) {
-                const int bit = std::countr_zero(w);
-                const Vec3i at = leaf.origin - out.origin + Vec3i{x, bit >> 3, bit & 7};
-                out.slot[out.cell(at)] = static_cast<std::uint16_t>(out.voxels.size());
-                const Coverage& c = stored.coverage[v];
-                OpenVoxel& voxel = out.voxels.emplace_back();
-                voxel.hits = (std::int64_t{c.occupancy} * n * n * n + 32767) / 65535;
-                const std::array<std::uint16_t, 3> covered{c.x, c.y, c.z};
-                for (int a = 0; a < 3; ++a) {
-                    const double seen = covered[static_cast<std::size_t>(a)] / 65535.0;
-                    voxel.seen[a] = rule == CoverageRule::Product ? 1.0 - seen : seen;
-                }
-                voxel.first_lobe = static_cast<std::uint32_t>(out.lobes.size());
-                voxel.lobe_count = stored.lobe_count[v];
-                open_lobes(stored, v, l, options, out);
-                if (rule == CoverageRule::Union) {
-                    const auto& columns = stored.columns[v];
-                    out.columns.insert(out.columns.end(), columns.begin(), columns.end());
-                }
-                l += stored.lobe_count[v++];
-            }
+    for_each_voxel(stored, [&](const BlockVoxel& from) {
+        out.slot[out.cell(from.at - out.origin)] = static_cast<std::uint16_t>(out.voxels.size());
+        const Coverage& c = from.coverage();
+        OpenVoxel& voxel = out.voxels.emplace_back();
+        voxel.hits = (std::int64_t{c.occupancy} * n * n * n + 32767) / 65535;
+        const std::array<std::uint16_t, 3> covered{c.x, c.y, c.z};
+        for (int a = 0; a < 3; ++a) {
+            const double seen = covered[static_cast<std::size_t>(a)] / 65535.0;
+            voxel.seen[a] = rule == CoverageRule::Product ? 1.0 - seen : seen;
         }
-    }
+        voxel.first_lobe = static_cast<std::uint32_t>(out.lobes.size());
+        voxel.lobe_count = stored.lobe_count[from.voxel];
+        open_lobes(from, options, out);
+        if (rule == CoverageRule::Union) {
+            const auto& columns = stored.columns[from.voxel];
+            out.columns.insert(out.columns.end(), columns.begin(), columns.end());
+        }
+    });
 }
 
 void build_level(const OpenLevel& below,

@@ -61,22 +61,22 @@ double ParentTruth::weight() const {
 ParentTruth
 pool_truth(const VoxelIndex& finest, int level, Vec3i index, const NormalMaterials& normals) {
     std::int64_t lobes = 0;
-    finest.for_each_below(
-        level, index, [&](const VoxelIndex::Voxel& v) { lobes += v.block.lobe_count[v.voxel]; });
+    finest.for_each_below(level, index, [&](const BlockVoxel& v) {
+        lobes += static_cast<std::int64_t>(v.lobe_count());
+    });
     ParentTruth truth;
     const int subvoxels = finest.source().info().lattice.subvoxels;
-    finest.for_each_below(level, index, [&](const VoxelIndex::Voxel& v) {
-        const std::size_t end = v.lobe + v.block.lobe_count[v.voxel];
-        const bool sums = !v.block.moments.empty();
-        const double depth = mean_depth(v.block.coverage[v.voxel], subvoxels);
+    finest.for_each_below(level, index, [&](const BlockVoxel& v) {
+        const std::span<const LobeMoment> moments = v.moments();
+        const bool sums = !moments.empty();
+        const double depth = mean_depth(v.coverage(), subvoxels);
         double shares = 0.0;
-        for (std::size_t i = v.lobe; i < end; ++i) shares += v.block.lobes[i].weight;
-        for (std::size_t i = v.lobe; i < end; ++i) {
-            const Lobe& stored = v.block.lobes[i];
-            if (sums && v.block.moments[i].weight <= 0)
-                continue; // of a file that was tampered with
+        for (const Lobe& lobe : v.lobes()) shares += lobe.weight;
+        for (std::size_t i = 0; i < v.lobe_count(); ++i) {
+            const Lobe& stored = v.lobes()[i];
+            if (sums && moments[i].weight <= 0) continue; // of a file that was tampered with
             const MixtureLobe lobe =
-                sums ? lobe_of(v.block.moments[i])
+                sums ? lobe_of(moments[i])
                      : MixtureLobe{unpack(stored.sggx),
                                    std::max(1e-9, depth * stored.weight / shares)};
             truth_of(truth, normals[stored.material]).add(lobe, points_of(lobes));
@@ -90,7 +90,7 @@ std::array<std::uint16_t, 3> union_of_columns(const VoxelIndex& finest, int leve
     std::array<std::vector<std::uint64_t>, 3> seen;
     for (auto& axis : seen) axis.resize(words);
     const Vec3i corner{index.x << level, index.y << level, index.z << level};
-    finest.for_each_below(level, index, [&](const VoxelIndex::Voxel& v) {
+    finest.for_each_below(level, index, [&](const BlockVoxel& v) {
         const Vec3i at = v.at - corner;
         for (int axis = 0; axis < 3; ++axis) {
             const int p = axis == 0 ? 1 : 0;

@@ -2,11 +2,10 @@
 
 #include <heddle/base/error.h>
 #include <heddle/base/parallel.h>
+#include <heddle/leaf_table/leaf_table.h>
 #include <heddle/voxel/z_order.h>
 
 #include <algorithm>
-#include <map>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -16,27 +15,36 @@ namespace {
 /// Puts what `old` holds of its voxels' columns, coverage and what neighbours share, in the place of
 /// what was made of level 0's.
 /// @throws Error  BadFile: the old level has other voxels
-void keep_columns(const VoxelSource& old, VoxelGrid& made) {
-    std::map<std::tuple<int, int, int>, std::pair<std::size_t, std::size_t>> leaves;
+void keep_columns(const VoxelSource& old, VoxelSource& made) {
+    std::vector<VoxelBlock>* const blocks = made.blocks_in_memory();
+    if (blocks == nullptr) return;
+    LeafTable<3> table;
+    std::vector<std::pair<std::size_t, std::size_t>> leaves; // block and number there
     VoxelBlock scratch;
     for (std::size_t b = 0; b < old.block_count(); ++b) {
         const VoxelBlock& block = old.block(b, scratch);
         for (std::size_t i = 0; i < block.leaves.size(); ++i) {
-            const Vec3i& o = block.leaves[i].origin;
-            leaves[{o.x, o.y, o.z}] = {b, i};
+            table.add(block.leaves[i].origin);
+            leaves.emplace_back(b, i);
         }
     }
-    VoxelGridFields& fields = made.about.fields;
+    VoxelGridInfo info = made.info();
+    VoxelGridFields& fields = info.fields;
     fields.footprints = old.info().fields.footprints;
     fields.correlation = old.info().fields.correlation;
-    for (VoxelBlock& block : made.blocks) {
+    made.set_info(info);
+    for (VoxelBlock& block : *blocks) {
         if (fields.footprints != 0) block.footprints.resize(block.coverage.size());
         if (fields.correlation) block.correlation.resize(block.coverage.size());
         for (const VoxelLeaf& leaf : block.leaves) {
-            const auto at = leaves.find({leaf.origin.x, leaf.origin.y, leaf.origin.z});
-            const VoxelBlock* from =
-                at == leaves.end() ? nullptr : &old.block(at->second.first, scratch);
-            if (from == nullptr || from->leaves[at->second.second].active != leaf.active) {
+            const std::uint32_t number = table.find(leaf.origin).leaf;
+            const VoxelBlock* from = nullptr;
+            const VoxelLeaf* old_leaf = nullptr;
+            if (number != LeafTable<3>::kNone) {
+                from = &old.block(leaves[number].first, scratch);
+                old_leaf = &from->leaves[leaves[number].second];
+            }
+            if (old_leaf == nullptr || old_leaf->active != leaf.active) {
                 throw Error(ErrorCode::BadFile,
                             str("lod: level ", old.info().level, " of '", old.info().name,
                                 "' has other voxels than its level 0"),
@@ -44,8 +52,8 @@ void keep_columns(const VoxelSource& old, VoxelGrid& made) {
             }
             const auto copy = [&](const auto& of, auto& to) {
                 if (to.empty()) return;
-                std::copy_n(of.begin() + from->leaves[at->second.second].first_voxel,
-                            leaf.voxel_count(), to.begin() + leaf.first_voxel);
+                std::copy_n(of.begin() + old_leaf->first_voxel, leaf.voxel_count(),
+                            to.begin() + leaf.first_voxel);
             };
             copy(from->coverage, block.coverage);
             copy(from->footprints, block.footprints);
@@ -56,11 +64,13 @@ void keep_columns(const VoxelSource& old, VoxelGrid& made) {
 
 /// Takes away what neighbours share, where levels above cannot have it.
 void drop_shared(VoxelSource& level) {
-    level.about.fields.footprints = 0;
-    level.about.fields.correlation = false;
-    auto* grid = dynamic_cast<VoxelGrid*>(&level);
-    if (grid == nullptr) return;
-    for (VoxelBlock& block : grid->blocks) {
+    VoxelGridInfo info = level.info();
+    info.fields.footprints = 0;
+    info.fields.correlation = false;
+    level.set_info(std::move(info));
+    std::vector<VoxelBlock>* const blocks = level.blocks_in_memory();
+    if (blocks == nullptr) return;
+    for (VoxelBlock& block : *blocks) {
         block.footprints = {};
         block.correlation = {};
     }
@@ -120,9 +130,11 @@ rebuild_levels(VoxelLevels old, const LodOptions& options, bool exact, Progress&
     VoxelLevels levels = builder.finish(std::move(old[0]));
     const bool naive = options.method == LodMethod::Naive;
     for (std::size_t l = 0; l < levels.size(); ++l) {
-        levels[l]->about.approximate = !masks && levels.size() > 1;
+        VoxelGridInfo info = levels[l]->info();
+        info.approximate = !masks && levels.size() > 1;
+        levels[l]->set_info(std::move(info));
         if (masks || naive || l == 0 || l >= old.size()) continue;
-        if (auto* grid = dynamic_cast<VoxelGrid*>(levels[l].get())) keep_columns(*old[l], *grid);
+        keep_columns(*old[l], *levels[l]);
     }
     if (naive || (!masks && old.size() < levels.size())) { // some levels cannot have them
         for (const auto& level : levels) drop_shared(*level);

@@ -16,20 +16,20 @@ public:
     /// All blocks.
     /// @param whole  must outlive this
     explicit SourcePart(const VoxelSource& whole) : whole_(whole) {
-        about = whole.info();
+        info_ = whole.info();
         for (std::size_t b = 0; b < whole.block_count(); ++b) blocks_.push_back(b);
     }
     /// Some; voxels are counted.
     /// @param blocks  numbers, each below whole.block_count()
     SourcePart(const VoxelSource& whole, std::vector<std::size_t> blocks)
         : whole_(whole), blocks_(std::move(blocks)) {
-        about = whole.info();
-        about.voxel_count = about.lobe_count = 0;
+        info_ = whole.info();
+        info_.voxel_count = info_.lobe_count = 0;
         VoxelBlock scratch;
         for (const std::size_t b : blocks_) {
             const VoxelBlock& block = whole.block(b, scratch);
-            about.voxel_count += static_cast<std::int64_t>(block.coverage.size());
-            about.lobe_count += static_cast<std::int64_t>(block.lobes.size());
+            info_.voxel_count += static_cast<std::int64_t>(block.coverage.size());
+            info_.lobe_count += static_cast<std::int64_t>(block.lobes.size());
         }
     }
     [[nodiscard]] std::size_t block_count() const override { return blocks_.size(); }

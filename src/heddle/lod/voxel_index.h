@@ -1,31 +1,23 @@
 #pragma once
 
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/leaf_voxels.h>
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace heddle {
 
-/// A source's leaves in Z-order: all voxels below one of a coarser level lie in one run.
+/// A source's leaves in Z-order: all voxels below one of a coarser level lie in one run, which a
+/// table of leaves by index could only collect leaf by leaf.
 class VoxelIndex {
 public:
-    /// Where a voxel stands; holds during the visit.
-    struct Voxel {
-        Vec3i at;
-        const VoxelBlock& block;
-        std::size_t voxel = 0; ///< in the block's arrays per voxel
-        std::size_t lobe = 0;  ///< its first, in the block's arrays per lobe
-    };
-
     /// @param source  must outlive this
     explicit VoxelIndex(const VoxelSource& source);
 
     [[nodiscard]] const VoxelSource& source() const { return source_; }
 
-    /// Calls visit(Voxel) for all voxels of the source that lie in one `levels` levels above it, in
+    /// Calls visit(BlockVoxel) for all voxels of the source that lie in one `levels` levels above it, in
     /// a fixed order. Safe from several threads.
     /// @param levels  0: the voxel itself
     /// @param index   of the coarser one
@@ -41,7 +33,9 @@ public:
             if (block == nullptr || leaves_[i].block != leaves_[i - 1].block) {
                 block = &source_.block(leaves_[i].block, scratch);
             }
-            visit_leaf(*block, block->leaves[leaves_[i].leaf], levels, index, visit);
+            for_each_voxel(*block, block->leaves[leaves_[i].leaf], [&](const BlockVoxel& v) {
+                if (is_in(v.at, index, levels)) visit(v);
+            });
         }
     }
 
@@ -56,24 +50,6 @@ private:
     [[nodiscard]] static bool is_in(Vec3i leaf, Vec3i cell, int up) {
         return Vec3i{leaf.x >> up, leaf.y >> up, leaf.z >> up} == cell;
     }
-    template <typename Visit>
-    static void visit_leaf(const VoxelBlock& block,
-                           const VoxelLeaf& leaf,
-                           int levels,
-                           Vec3i index,
-                           const Visit& visit) {
-        std::size_t voxel = leaf.first_voxel;
-        std::size_t lobe = leaf.first_lobe;
-        for (int x = 0; x < 8; ++x) {
-            for (std::uint64_t w = leaf.active[static_cast<std::size_t>(x)]; w != 0; w &= w - 1) {
-                const int bit = std::countr_zero(w);
-                const Vec3i at = leaf.origin + Vec3i{x, bit >> 3, bit & 7};
-                if (is_in(at, index, levels)) visit(Voxel{at, block, voxel, lobe});
-                lobe += block.lobe_count[voxel++];
-            }
-        }
-    }
-
     const VoxelSource& source_;
     std::vector<Leaf> leaves_;
 };

@@ -5,6 +5,7 @@
 #include <heddle/base/random.h>
 #include <heddle/geom/color.h>
 #include <heddle/preview/scene.h>
+#include <heddle/preview/sheet.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,10 +14,16 @@
 namespace heddle {
 namespace {
 
+using preview::kClosing;
+using preview::kFlatWidth;
+using preview::kOpaque;
+using preview::kSheetGap;
 using preview::Leaf;
 using preview::Scene;
 using preview::Voxel;
 
+/// A ray whose direction is in double, where the renderer's has floats: it starts far from what it
+/// meets, and steps through cells of 128 voxels.
 struct Ray {
     Vec3d origin;
     Vec3d direction; ///< unit
@@ -157,14 +164,6 @@ private:
         double sheet_end = -std::numeric_limits<double>::infinity(); ///< t where it was last met
         float sheet_left = 1.0f; ///< what the flat voxels met one after the other left of 1
     };
-    static constexpr float kOpaque = 0.004f; ///< less than this is not followed
-    static constexpr int kFlatWidth = 96;    ///< of a normal lobe: a sheet, not foliage
-    /// More than what is exact in the mean: the parts that a ray meets do not add up to just 1. At 1
-    /// slanted surfaces look moth-eaten, at 1.5 closed; edges come out half a voxel wider.
-    static constexpr float kClosing = 1.5f;
-    /// voxels that a ray may pass between two of a sheet's
-    static constexpr double kSheetGap = 0.5;
-
     bool clip(Vec3d p, Vec3d d, double& t, double& t_end) const {
         t = 0.0;
         t_end = std::numeric_limits<double>::infinity();
@@ -187,20 +186,20 @@ private:
         Walk walk(s.p * (1.0 / 128.0), s.d * (1.0 / 128.0), t, lo, hi);
         while (t < t_end && s.through > kOpaque) {
             const double leave = std::min(walk.end(), t_end);
-            const std::int32_t cell = scene_.cell(walk.at);
-            if (cell >= 0) walk_leaves(s, cell, walk.at, t, leave);
+            const std::uint32_t tile = scene_.table().find_tile(walk.at);
+            if (tile != Scene::Table::kNone) walk_leaves(s, tile, walk.at, t, leave);
             t = std::max(t, leave);
             if (leave >= t_end || !walk.advance(lo, hi)) break;
         }
     }
 
-    void walk_leaves(State& s, std::int32_t cell, Vec3i at, double t, double t_end) const {
+    void walk_leaves(State& s, std::uint32_t tile, Vec3i at, double t, double t_end) const {
         const Vec3i lo = at * 16;
         const Vec3i hi = lo + Vec3i{15, 15, 15};
         Walk walk(s.p * 0.125, s.d * 0.125, t, lo, hi);
         while (t < t_end && s.through > kOpaque) {
             const double leave = std::min(walk.end(), t_end);
-            const Leaf* leaf = scene_.leaf(cell, walk.at);
+            const Leaf* leaf = scene_.leaf(tile, walk.at);
             if (leaf != nullptr) walk_voxels(s, *leaf, walk.at, t, leave);
             t = std::max(t, leave);
             if (leave >= t_end || !walk.advance(lo, hi)) break;
@@ -213,11 +212,8 @@ private:
         Walk walk(s.p, s.d, t, lo, hi);
         while (t < t_end && s.through > kOpaque) {
             const double leave = std::min(walk.end(), t_end);
-            const Vec3i i = walk.at - lo;
-            const int bit = i.y * 8 + i.z;
-            if (leave > t && ((leaf.active[static_cast<std::size_t>(i.x)] >> bit) & 1) != 0) {
-                add(s, scene_.voxel(leaf, i.x, bit), at, t, leave);
-            }
+            const std::int32_t number = leaf.mask.find(walk.at);
+            if (leave > t && number >= 0) add(s, scene_.voxel(leaf, number), at, t, leave);
             t = std::max(t, leave);
             if (leave >= t_end || !walk.advance(lo, hi)) break;
         }
@@ -252,7 +248,7 @@ private:
         }
         const float opaque = kClosing * std::abs(surface) / voxel;
         const Vec3d h = scene_.voxel_size();
-        if (t > s.sheet_end + kSheetGap * std::min({h.x, h.y, h.z})) s.sheet_left = 1.0f;
+        if (t > s.sheet_end + double{kSheetGap} * std::min({h.x, h.y, h.z})) s.sheet_left = 1.0f;
         s.sheet_end = leave;
         const float left = std::max(0.0f, s.sheet_left - opaque);
         const float hidden = s.sheet_left > 0.0f ? 1.0f - left / s.sheet_left : 1.0f;

@@ -29,8 +29,8 @@ make_voxels(const std::vector<Vec3i>& at, double c, Vec3f direction = {1.0f, 0.0
         voxels[{i.x, i.y, i.z}] = {{u, u, u, u}, {{testing::needle(direction), 255, 0}}};
     }
     VoxelGrid grid;
-    grid.about.materials.resize(1);
-    grid.about.materials[0].kind = MaterialKind::Fiber;
+    grid.info().materials.resize(1);
+    grid.info().materials[0].kind = MaterialKind::Fiber;
     grid.blocks = testing::make_blocks(voxels);
     testing::count_voxels(grid);
     return grid;
@@ -82,13 +82,13 @@ TEST(Preview, LayersMultiplyWhatTheyLetThrough) {
 TEST(Preview, NeighboursOfOneSheetAddUpWhatTheyHide) {
     Progress progress;
     VoxelGrid sheet = make_voxels(box(16, 16, 2), 0.5, {0.0f, 0.0f, 1.0f});
-    sheet.about.materials[0].kind = MaterialKind::Surface; // the needle is of normals: flat
+    sheet.info().materials[0].kind = MaterialKind::Surface; // the needle is of normals: flat
     EXPECT_GT(pixel(render_preview(sheet, small({0, 0, 1}), progress), 16, 16)[3], 250);
     // two sheets with air between them multiply, as all else does
     std::vector<Vec3i> apart = box(16, 16, 1);
     for (const Vec3i i : box(16, 16, 1)) apart.push_back({i.x, i.y, 3});
     VoxelGrid two = make_voxels(apart, 0.5, {0.0f, 0.0f, 1.0f});
-    two.about.materials[0].kind = MaterialKind::Surface;
+    two.info().materials[0].kind = MaterialKind::Surface;
     const int alpha = pixel(render_preview(two, small({0, 0, 1}), progress), 16, 16)[3];
     EXPECT_GT(alpha, 184); // 0.75 and a little more: surfaces are to look closed
     EXPECT_LT(alpha, 245);
@@ -115,9 +115,9 @@ TEST(Preview, TheNearerVoxelIsSeenFromEachSide) {
         }
     }
     VoxelGrid grid;
-    grid.about.materials.resize(2);
-    grid.about.materials[0].albedo = {1.0f, 0.0f, 0.0f};
-    grid.about.materials[1].albedo = {0.0f, 0.0f, 1.0f};
+    grid.info().materials.resize(2);
+    grid.info().materials[0].albedo = {1.0f, 0.0f, 0.0f};
+    grid.info().materials[1].albedo = {0.0f, 0.0f, 1.0f};
     grid.blocks = testing::make_blocks(voxels);
     Progress progress;
     const Pixel right = pixel(render_preview(grid, small({1, 0, 0}), progress), 16, 16);

@@ -14,8 +14,6 @@
 
 namespace heddle::raster::test {
 
-using heddle::test::FoundVoxel;
-
 /// Mean extinction of a voxel over its three axes, as `density` of a .vdb has it, per voxel edge.
 inline double density_of(const Coverage& coverage, int columns) {
     double sum = 0.0;
@@ -27,10 +25,10 @@ inline double density_of(const Coverage& coverage, int columns) {
 }
 
 /// The axis that a voxel's directions agree on best.
-inline Vec3d axis_of(const FoundVoxel& voxel) {
+inline Vec3d axis_of(const BlockVoxel& voxel) {
     double sum[6]{};
     double weight = 0.0;
-    for (const LobeMoment& lobe : voxel.moments) {
+    for (const LobeMoment& lobe : voxel.moments()) {
         for (std::size_t i = 0; i < 6; ++i) sum[i] += static_cast<double>(lobe.moment[i]);
         weight += static_cast<double>(lobe.weight);
     }
@@ -49,8 +47,8 @@ struct Stored {
 
 inline std::vector<Stored> stored(const VoxelSource& source) {
     std::vector<Stored> out;
-    heddle::test::for_each_voxel(source, [&](const FoundVoxel& v) {
-        out.push_back({v.at, v.coverage, {v.lobes.begin(), v.lobes.end()}, v.columns});
+    for_each_voxel(source, [&](const BlockVoxel& v) {
+        out.push_back({v.at, v.coverage(), {v.lobes().begin(), v.lobes().end()}, v.columns()});
     });
     std::sort(out.begin(), out.end(), [](const Stored& a, const Stored& b) {
         return std::tie(a.at.x, a.at.y, a.at.z) < std::tie(b.at.x, b.at.y, b.at.z);
@@ -73,16 +71,16 @@ inline Difference compare(const VoxelSource& first, const VoxelSource& second) {
     const int columns = first.info().lattice.subvoxels * first.info().lattice.subvoxels;
     double sums[2][3]{};
     std::vector<double> angles;
-    const auto add = [&](double* sum, const FoundVoxel& v) {
-        sum[0] += density_of(v.coverage, columns);
-        for (int a = 0; a < 3; ++a) sum[1] += heddle::test::covered(v.coverage, a);
-        sum[2] += v.coverage.occupancy;
+    const auto add = [&](double* sum, const BlockVoxel& v) {
+        sum[0] += density_of(v.coverage(), columns);
+        for (int a = 0; a < 3; ++a) sum[1] += heddle::test::covered(v.coverage(), a);
+        sum[2] += v.coverage().occupancy;
     };
-    heddle::test::for_each_voxel(first, [&](const FoundVoxel& v) {
+    for_each_voxel(first, [&](const BlockVoxel& v) {
         add(sums[0], v);
         axes[{v.at.x, v.at.y, v.at.z}] = axis_of(v);
     });
-    heddle::test::for_each_voxel(second, [&](const FoundVoxel& v) {
+    for_each_voxel(second, [&](const BlockVoxel& v) {
         add(sums[1], v);
         const auto found = axes.find({v.at.x, v.at.y, v.at.z});
         if (found == axes.end()) return;

@@ -18,7 +18,6 @@ namespace {
 
 using namespace heddle::raster::test;
 using namespace heddle::slice::test;
-using heddle::test::for_each_voxel;
 
 VoxelizeOptions options_of(double voxel_size) {
     VoxelizeOptions options;
@@ -160,7 +159,7 @@ TEST(VoxelizeSlices, TwoMaterialsKeepTheirLobes) {
     yarns.curves.push_back(other);
     int both = 0;
     const std::unique_ptr<VoxelSource> drawn = draw(yarns, options_of(0.03));
-    for_each_voxel(*drawn, [&](const FoundVoxel& v) { both += v.lobes.size() == 2 ? 1 : 0; });
+    for_each_voxel(*drawn, [&](const BlockVoxel& v) { both += v.lobes().size() == 2 ? 1 : 0; });
     EXPECT_GT(both, 10);
     expect_close(difference_of(yarns, options_of(0.03)), "crossing");
 }
@@ -175,9 +174,9 @@ TEST(Composition, DensitiesStandInTheOrderOfTheirPolicies) {
     const auto mean = [&](Composition composition) {
         double sum = 0.0;
         double count = 0.0;
-        for_each_voxel(*draw(yarn, options, composition), [&](const FoundVoxel& v) {
-            EXPECT_EQ(v.coverage.x, v.coverage.y);
-            sum += heddle::test::covered(v.coverage, 0);
+        for_each_voxel(*draw(yarn, options, composition), [&](const BlockVoxel& v) {
+            EXPECT_EQ(v.coverage().x, v.coverage().y);
+            sum += heddle::test::covered(v.coverage(), 0);
             count += 1.0;
         });
         return sum / count;

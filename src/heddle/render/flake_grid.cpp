@@ -1,6 +1,5 @@
 #include <heddle/render/flake_grid.h>
 
-#include <heddle/base/error.h>
 #include <heddle/base/parallel.h>
 #include <heddle/render/volume/clip.h>
 
@@ -43,45 +42,7 @@ FlakeGrid::FlakeGrid(const FlakeField& field)
       hi_(field.hi()),
       one_albedo_(field.albedo()) {
     if (field.origins().empty()) return;
-    size_table();
     add_leaves(field, leaf_corners(field.origins()));
-}
-
-void FlakeGrid::size_table() {
-    tile_lo_ = {lo_.x >> 6, lo_.y >> 6, lo_.z >> 6};
-    tile_count_ =
-        Vec3i{(hi_.x - 1) >> 6, (hi_.y - 1) >> 6, (hi_.z - 1) >> 6} - tile_lo_ + Vec3i{1, 1, 1};
-    const double tiles = static_cast<double>(tile_count_.x) * tile_count_.y * tile_count_.z;
-    constexpr double kMostTiles = 268435456.0;
-    if (tiles > kMostTiles) {
-        throw Error(ErrorCode::InvalidArgument,
-                    str("flakes: ", tiles, " tiles of 64^3 voxels (limit 2^28)"),
-                    "render a coarser level");
-    }
-    table_.assign(static_cast<std::size_t>(tiles), kNone);
-}
-
-std::size_t FlakeGrid::table_place(Vec3i tile) const {
-    return (static_cast<std::size_t>(tile.x) * static_cast<std::size_t>(tile_count_.y) +
-            static_cast<std::size_t>(tile.y)) *
-               static_cast<std::size_t>(tile_count_.z) +
-           static_cast<std::size_t>(tile.z);
-}
-
-FlakeGrid::Place FlakeGrid::find_leaf(Vec3i cell) const {
-    const Vec3i tile = Vec3i{cell.x >> 6, cell.y >> 6, cell.z >> 6} - tile_lo_;
-    const auto outside = [](std::int32_t i, std::int32_t n) {
-        return static_cast<std::uint32_t>(i) >= static_cast<std::uint32_t>(n);
-    };
-    if (outside(tile.x, tile_count_.x) || outside(tile.y, tile_count_.y) ||
-        outside(tile.z, tile_count_.z)) {
-        return {};
-    }
-    const std::uint32_t number = table_[table_place(tile)];
-    if (number == kNone) return {};
-    const auto at = static_cast<std::size_t>((cell.x >> 3 & 7) << 6 | (cell.y >> 3 & 7) << 3 |
-                                             (cell.z >> 3 & 7));
-    return {tiles_[number].leaf[at], 8};
 }
 
 /// Two rounds over the candidates: which hold extinction, then their flakes into arrays of that size.
@@ -95,16 +56,8 @@ void FlakeGrid::add_leaves(const FlakeField& field, const std::vector<Vec3i>& co
     std::vector<Vec3i> kept;
     for (std::size_t i = 0; i < corners.size(); ++i) {
         if (dense[i] == 0) continue;
-        const Vec3i c = corners[i];
-        std::uint32_t& number = table_[table_place(Vec3i{c.x >> 6, c.y >> 6, c.z >> 6} - tile_lo_)];
-        if (number == kNone) {
-            number = static_cast<std::uint32_t>(tiles_.size());
-            tiles_.emplace_back().leaf.fill(kNone);
-        }
-        tiles_[number].leaf[static_cast<std::size_t>((c.x >> 3 & 7) << 6 | (c.y >> 3 & 7) << 3 |
-                                                     (c.z >> 3 & 7))] =
-            static_cast<std::uint32_t>(kept.size());
-        kept.push_back(c);
+        table_.add(corners[i]);
+        kept.push_back(corners[i]);
     }
     majorant_.resize(kept.size());
     sigma_t_.resize(kept.size() * kFlakes);
@@ -136,8 +89,8 @@ void FlakeGrid::store(std::size_t leaf, const FlakeBlock& block) {
 }
 
 std::int64_t FlakeGrid::byte_count() const {
-    return bytes_of(table_) + bytes_of(tiles_) + bytes_of(majorant_) + bytes_of(sigma_t_) +
-           bytes_of(S_) + bytes_of(albedo_);
+    return table_.byte_count() + bytes_of(majorant_) + bytes_of(sigma_t_) + bytes_of(S_) +
+           bytes_of(albedo_);
 }
 
 namespace {
@@ -253,7 +206,7 @@ void FlakeMedium::walk(const GridRay& ray, const Visit& visit) const {
     float t = 0.0f;
     while (t < end) {
         const Vec3i cell = local.base + at;
-        const FlakeGrid::Place place = grid_->find_leaf(cell);
+        const LeafTable<3>::Place place = grid_->find_leaf(cell);
         const std::int32_t mask = ~(place.size - 1);
         const Vec3i low = Vec3i{cell.x & mask, cell.y & mask, cell.z & mask} - local.base;
         const detail::Exit exit = detail::find_exit(local, low, place.size);

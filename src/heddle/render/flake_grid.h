@@ -1,12 +1,13 @@
 #pragma once
 
 #include <heddle/base/random.h>
+#include <heddle/flake/flake_field.h>
 #include <heddle/geom/affine.h>
 #include <heddle/geom/bounds.h>
+#include <heddle/leaf_table/leaf_table.h>
 #include <heddle/render/volume/ray.h>
 #include <heddle/render/volume/walk.h>
 #include <heddle/scatter/scatterer.h>
-#include <heddle/voxel/flake_field.h>
 
 #include <array>
 #include <cstdint>
@@ -22,19 +23,14 @@ namespace heddle {
 /// albedo varies. Never changes: any number of threads.
 class FlakeGrid {
 public:
-    /// @throws Error  InvalidArgument: voxels lie too far apart for its table (2^28 tiles of 64^3)
     explicit FlakeGrid(const FlakeField& field);
 
     static constexpr std::int32_t kSide = 9; ///< flakes along a leaf's edge
     static constexpr std::size_t kFlakes = std::size_t{kSide} * kSide * kSide;
-    static constexpr std::uint32_t kNone = 0xffffffff;
+    static constexpr std::uint32_t kNone = LeafTable<3>::kNone;
 
     /// What is in a cell (i spans voxel centres i and i + 1): a leaf, or how much around it is empty.
-    struct Place {
-        std::uint32_t leaf = kNone;
-        std::int32_t size = 64; ///< edge of the aligned cube that the leaf fills, or that is empty
-    };
-    [[nodiscard]] Place find_leaf(Vec3i cell) const;
+    [[nodiscard]] LeafTable<3>::Place find_leaf(Vec3i cell) const { return table_.find(cell); }
     /// Largest sigma_t in a leaf: per scene unit of the object.
     [[nodiscard]] float majorant(std::uint32_t leaf) const { return majorant_[leaf]; }
 
@@ -56,20 +52,13 @@ public:
     [[nodiscard]] std::int64_t byte_count() const;
 
 private:
-    struct Tile {
-        std::array<std::uint32_t, 512> leaf;
-    };
-    void size_table();
     void add_leaves(const FlakeField& field, const std::vector<Vec3i>& corners);
     void store(std::size_t leaf, const FlakeBlock& block);
-    [[nodiscard]] std::size_t table_place(Vec3i tile) const;
 
     Vec3d voxel_size_{};
     Vec3i lo_{}, hi_{};
-    Vec3i tile_lo_{}, tile_count_{};
     Vec3f one_albedo_{};
-    std::vector<std::uint32_t> table_; ///< tiles of the box, or kNone
-    std::vector<Tile> tiles_;
+    LeafTable<3> table_;
     std::vector<float> majorant_;
     std::vector<std::uint16_t> sigma_t_;
     std::vector<PackedFlake> S_;

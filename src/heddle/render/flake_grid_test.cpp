@@ -14,9 +14,9 @@ namespace {
 /// A ball of fibers that turn with x, radius 5 voxels of size .25, thinner towards -x.
 VoxelGrid ball() {
     VoxelGrid grid;
-    grid.about.lattice = {{0.25, 0.25, 0.25}, 8};
-    grid.about.materials.resize(1);
-    grid.about.materials[0].kind = MaterialKind::Fiber;
+    grid.info().lattice = {{0.25, 0.25, 0.25}, 8};
+    grid.info().materials.resize(1);
+    grid.info().materials[0].kind = MaterialKind::Fiber;
     VoxelBlock& block = grid.blocks.emplace_back();
     for (int leaf = 0; leaf < 8; ++leaf) {
         VoxelLeaf& l = block.leaves.emplace_back();
@@ -38,8 +38,8 @@ VoxelGrid ball() {
                  255, 0});
         }
     }
-    grid.about.voxel_count = static_cast<std::int64_t>(block.coverage.size());
-    grid.about.lobe_count = grid.about.voxel_count;
+    grid.info().voxel_count = static_cast<std::int64_t>(block.coverage.size());
+    grid.info().lobe_count = grid.info().voxel_count;
     return grid;
 }
 

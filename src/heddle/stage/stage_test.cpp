@@ -105,7 +105,7 @@ TEST(Stage, AVolumeWithoutVoxelsIsRefused) {
     const TempFolder folder;
     Scene scene = slab_scene(folder);
     VoxelGrid none;
-    none.about.materials.resize(1);
+    none.info().materials.resize(1);
     Progress progress;
     write_vdb(none, folder.file("slab.vdb"), progress);
     const auto error = error_of([&] { Stage(scene, {}, progress); });

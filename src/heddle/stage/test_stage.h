@@ -29,11 +29,11 @@ inline VoxelLevels make_slab(const std::vector<Material>& materials) {
             }
         }
         auto grid = std::make_unique<VoxelGrid>();
-        grid->about.name = "slab";
-        grid->about.lattice = lattice_of_level({{0.1, 0.1, 0.1}, 8}, level);
-        grid->about.level = level;
-        grid->about.lod = "moments";
-        grid->about.materials = materials;
+        grid->info().name = "slab";
+        grid->info().lattice = lattice_of_level({{0.1, 0.1, 0.1}, 8}, level);
+        grid->info().level = level;
+        grid->info().lod = "moments";
+        grid->info().materials = materials;
         grid->blocks = make_blocks(voxels);
         count_voxels(*grid);
         levels.push_back(std::move(grid));

@@ -17,11 +17,11 @@ public:
     BlockKeeper(VoxelGridInfo info, std::size_t blocks, bool spool, const std::string& folder) {
         if (spool) {
             spooled_ = std::make_unique<SpooledGrid>(folder);
-            spooled_->about = std::move(info);
+            spooled_->set_info(std::move(info));
             spooled_->resize(blocks);
         } else {
             grid_ = std::make_unique<VoxelGrid>();
-            grid_->about = std::move(info);
+            grid_->set_info(std::move(info));
             grid_->blocks.resize(blocks);
         }
     }
@@ -40,11 +40,13 @@ public:
     }
 
     [[nodiscard]] std::unique_ptr<VoxelSource> finish() {
-        VoxelGridInfo& info = spooled_ ? spooled_->about : grid_->about;
+        std::unique_ptr<VoxelSource> kept = std::move(grid_);
+        if (spooled_) kept = std::move(spooled_);
+        VoxelGridInfo info = kept->info();
         info.voxel_count = voxels_;
         info.lobe_count = lobes_;
-        if (spooled_) return std::move(spooled_);
-        return std::move(grid_);
+        kept->set_info(std::move(info));
+        return kept;
     }
 
 private:

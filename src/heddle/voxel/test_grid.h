@@ -72,7 +72,7 @@ inline void add_fields(VoxelGrid& grid) {
             const auto byte = [&](std::uint64_t k) {
                 return static_cast<std::uint8_t>(hash64(7, l, k));
             };
-            const VoxelGridFields& has = grid.about.fields;
+            const VoxelGridFields& has = grid.info().fields;
             LobeMaps maps;
             if (has.albedo) maps.albedo = {byte(0), byte(1), byte(2)};
             if (has.surface) {
@@ -89,10 +89,10 @@ inline void add_fields(VoxelGrid& grid) {
 }
 
 inline void count_voxels(VoxelGrid& grid) {
-    grid.about.voxel_count = grid.about.lobe_count = 0;
+    grid.info().voxel_count = grid.info().lobe_count = 0;
     for (const VoxelBlock& block : grid.blocks) {
-        grid.about.voxel_count += static_cast<std::int64_t>(block.coverage.size());
-        grid.about.lobe_count += static_cast<std::int64_t>(block.lobes.size());
+        grid.info().voxel_count += static_cast<std::int64_t>(block.coverage.size());
+        grid.info().lobe_count += static_cast<std::int64_t>(block.lobes.size());
     }
 }
 
@@ -125,14 +125,14 @@ inline VoxelGrid make_helix(double big = 40.0, double thin = 6.0, int turns = 3)
         }
     }
     VoxelGrid grid;
-    grid.about.name = "helix";
-    grid.about.lattice.voxel_size = {0.1, 0.1, 0.1};
+    grid.info().name = "helix";
+    grid.info().lattice.voxel_size = {0.1, 0.1, 0.1};
     for (const Vec3f albedo : {Vec3f{0.8f, 0.3f, 0.2f}, {0.2f, 0.6f, 0.3f}, {0.2f, 0.3f, 0.8f}}) {
         Material m;
-        m.name = "yarn " + std::to_string(grid.about.materials.size());
+        m.name = "yarn " + std::to_string(grid.info().materials.size());
         m.kind = MaterialKind::Fiber;
         m.albedo = albedo;
-        grid.about.materials.push_back(m);
+        grid.info().materials.push_back(m);
     }
     grid.blocks = make_blocks(voxels);
     count_voxels(grid);
@@ -176,10 +176,10 @@ inline VoxelBlock make_cloth_block(int bx, int bz, int side, std::uint64_t seed)
 /// A sheet of about `voxels` voxels in blocks of 32 x 16 x 32.
 inline VoxelGrid make_cloth(double voxels) {
     VoxelGrid grid;
-    grid.about.name = "cloth";
+    grid.info().name = "cloth";
     Material m;
     m.kind = MaterialKind::Fiber;
-    grid.about.materials.push_back(m);
+    grid.info().materials.push_back(m);
     const double per_block = static_cast<double>(make_cloth_block(0, 0, 1, 1).coverage.size());
     const int side = static_cast<int>(std::sqrt(voxels / per_block)) + 1;
     grid.blocks.resize(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace heddle {
@@ -108,18 +109,6 @@ struct VoxelLeaf {
     }
 };
 
-/// Sets before[x] to the number of bits that words before x have.
-/// @return  the number of bits of all
-inline std::uint16_t count_before(const std::array<std::uint64_t, 8>& words,
-                                  std::array<std::uint16_t, 8>& before) {
-    std::uint16_t count = 0;
-    for (std::size_t x = 0; x < 8; ++x) {
-        before[x] = count;
-        count = static_cast<std::uint16_t>(count + std::popcount(words[x]));
-    }
-    return count;
-}
-
 /// In which order a voxel's lobes merge when fewer are wanted: with n lobes left, lobe n - 1 joins
 /// lobe `merge_target(order, n - 1)`. Lobe 1 joins lobe 0.
 [[nodiscard]] constexpr int merge_target(std::uint32_t order, int lobe) {
@@ -218,26 +207,33 @@ struct VoxelGridInfo {
 class VoxelSource {
 public:
     virtual ~VoxelSource() = default;
-    [[nodiscard]] const VoxelGridInfo& info() const { return about; }
+    [[nodiscard]] const VoxelGridInfo& info() const { return info_; }
+    void set_info(VoxelGridInfo info) { info_ = std::move(info); }
     [[nodiscard]] virtual std::size_t block_count() const = 0;
     /// Block i, i < block_count(). The reference holds until the next call on the same `scratch`.
     /// Safe from several threads, each with a scratch of its own.
     [[nodiscard]] virtual const VoxelBlock& block(std::size_t i, VoxelBlock& scratch) const = 0;
+    /// The blocks themselves where they lie in memory and may be changed there; null elsewhere.
+    [[nodiscard]] virtual std::vector<VoxelBlock>* blocks_in_memory() { return nullptr; }
 
-    VoxelGridInfo about;
+protected:
+    VoxelGridInfo info_;
 };
 
 /// The levels of an object, finest first. All but lattice, level and counts of their infos agree.
 using VoxelLevels = std::vector<std::unique_ptr<VoxelSource>>;
 
-/// A VoxelSource in memory.
+/// A VoxelSource in memory, whose maker fills in its blocks and its info.
 struct VoxelGrid final : VoxelSource {
     std::vector<VoxelBlock> blocks;
 
+    using VoxelSource::info;
+    [[nodiscard]] VoxelGridInfo& info() { return info_; }
     [[nodiscard]] std::size_t block_count() const override { return blocks.size(); }
     [[nodiscard]] const VoxelBlock& block(std::size_t i, VoxelBlock&) const override {
         return blocks[i];
     }
+    [[nodiscard]] std::vector<VoxelBlock>* blocks_in_memory() override { return &blocks; }
 };
 
 } // namespace heddle

@@ -30,8 +30,8 @@ VoxelizeOptions unit_voxels() {
 
 std::map<Key, Content> content_of(const CurveSet& set) {
     std::map<Key, Content> content;
-    for_each_voxel(*voxelize_now(geometry_of(set), unit_voxels()), [&](const FoundVoxel& v) {
-        content[{v.at.x, v.at.y, v.at.z}] = {v.coverage, {v.lobes.begin(), v.lobes.end()}};
+    for_each_voxel(*voxelize_now(geometry_of(set), unit_voxels()), [&](const BlockVoxel& v) {
+        content[{v.at.x, v.at.y, v.at.z}] = {v.coverage(), {v.lobes().begin(), v.lobes().end()}};
     });
     return content;
 }
@@ -68,13 +68,13 @@ TEST(FiberCurves, TheFibersOfAClosedYarnCloseToo) {
     VoxelizeOptions options;
     options.voxel_size = {0.125, 0.125, 0.125};
     std::array<std::array<double, 3>, kSectors> sum{}; // weight, distance from the axis, height
-    for_each_voxel(*voxelize_now(geometry, options), [&](const FoundVoxel& v) {
+    for_each_voxel(*voxelize_now(geometry, options), [&](const BlockVoxel& v) {
         const Vec3d p = Vec3d{v.at.x + 0.5, v.at.y + 0.5, v.at.z + 0.5} * 0.125;
         const double turn = std::atan2(p.y, p.x) / (2.0 * kPi) + 0.5; // the seam is at 0.5
         auto& s = sum[static_cast<std::size_t>(turn * kSectors) % kSectors];
-        s[0] += v.coverage.occupancy;
-        s[1] += v.coverage.occupancy * std::hypot(p.x, p.y);
-        s[2] += v.coverage.occupancy * p.z;
+        s[0] += v.coverage().occupancy;
+        s[1] += v.coverage().occupancy * std::hypot(p.x, p.y);
+        s[2] += v.coverage().occupancy * p.z;
     });
     std::vector<double> step;
     for (std::size_t i = 0; i < kSectors; ++i) {
@@ -135,10 +135,10 @@ TEST(FiberCurves, AStrandTapersAsItsRadiiSay) {
     add_curve(set, {to_float(Vec3d{0.2, 0.3, 0.4}), to_float(Vec3d{0.2, 0.3, 0.4} + d * 120.0)});
     set.radius = {0.25f, 0.0625f};
     std::array<double, 4> found{};
-    for_each_voxel(*voxelize_now(geometry_of(set), unit_voxels()), [&](const FoundVoxel& v) {
+    for_each_voxel(*voxelize_now(geometry_of(set), unit_voxels()), [&](const BlockVoxel& v) {
         const Vec3d p{v.at.x + 0.3, v.at.y + 0.2, v.at.z + 0.1};
         const auto quarter = static_cast<std::size_t>(std::clamp(dot(p, d) / 30.0, 0.0, 3.0));
-        found[quarter] += covered(v.coverage, 2);
+        found[quarter] += covered(v.coverage(), 2);
     });
     const double sine = std::sqrt(1.0 - d.z * d.z);
     for (std::size_t q = 0; q < 4; ++q) {
@@ -156,9 +156,9 @@ TEST(FiberCurves, VertexColoursArriveInAlbedo) {
     add_curve(set, {{4.0f, 0.6f, 0.5f}, {8.0f, 0.6f, 0.5f}}); // beside the first's second half
     set.color = {0x0000ff, 0x00ff00, 0x00ff00, 0xff0000, 0xff0000}; // red in bits 0-7
     std::map<int, LobeMaps> maps;
-    for_each_voxel(*voxelize_now(geometry_of(set), unit_voxels()), [&](const FoundVoxel& v) {
-        ASSERT_EQ(v.maps.size(), 1u);
-        maps[v.at.x] = v.maps[0];
+    for_each_voxel(*voxelize_now(geometry_of(set), unit_voxels()), [&](const BlockVoxel& v) {
+        ASSERT_EQ(v.maps().size(), 1u);
+        maps[v.at.x] = v.maps()[0];
     });
     using Color = std::array<std::uint8_t, 3>;
     EXPECT_EQ(maps.at(2).albedo, (Color{255, 0, 0}));

@@ -4,6 +4,7 @@
 #include <heddle/geom/generate.h>
 #include <heddle/sggx/moments.h>
 #include <heddle/sggx/pack.h>
+#include <heddle/voxel/leaf_voxels.h>
 #include <heddle/voxelize/voxelize.h>
 
 #include <gtest/gtest.h>
@@ -43,19 +44,12 @@ std::vector<T> part(const std::vector<T>& all, std::size_t first, std::size_t co
 }
 
 void collect(const VoxelBlock& block, FoundVoxels& out) {
-    for (const VoxelLeaf& leaf : block.leaves) {
-        std::size_t voxel = leaf.first_voxel;
-        std::size_t lobe = leaf.first_lobe;
-        for (int i = 0; i < 512; ++i) {
-            if ((leaf.active[static_cast<std::size_t>(i >> 6)] >> (i & 63) & 1u) == 0) continue;
-            const std::size_t n = block.lobe_count[voxel];
-            const Vec3i at = leaf.origin + Vec3i{i >> 6, i >> 3 & 7, i & 7};
-            out[{at.x, at.y, at.z}] = {block.coverage[voxel], part(block.lobes, lobe, n),
-                                       part(block.maps, lobe, n), part(block.tangents, lobe, n)};
-            ++voxel;
-            lobe += n;
-        }
-    }
+    for_each_voxel(block, [&](const BlockVoxel& v) {
+        const std::size_t n = v.lobe_count();
+        out[{v.at.x, v.at.y, v.at.z}] = {v.coverage(), part(block.lobes, v.lobe, n),
+                                         part(block.maps, v.lobe, n),
+                                         part(block.tangents, v.lobe, n)};
+    });
 }
 
 FoundVoxels run(const Geometry& geometry, const VoxelizeOptions& options) {

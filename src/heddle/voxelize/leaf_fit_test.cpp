@@ -59,9 +59,9 @@ TEST(LeafFit, FitLastKeepsOneDirection) {
     const auto middle_sigma = [&](FitMode fit) {
         options.fit = fit;
         double found = -1.0;
-        for_each_voxel(*voxelize_now(crossing(), options), [&](const FoundVoxel& v) {
-            EXPECT_EQ(v.lobes.size(), 1u);
-            found = std::sqrt(decompose(unpack(v.lobes[0].sggx)).value[1]);
+        for_each_voxel(*voxelize_now(crossing(), options), [&](const BlockVoxel& v) {
+            EXPECT_EQ(v.lobes().size(), 1u);
+            found = std::sqrt(decompose(unpack(v.lobes()[0].sggx)).value[1]);
         });
         return found;
     };

@@ -245,9 +245,9 @@ inline void compare(const VoxelSource& found, const RayFaces& rays, BundleError&
         const Vec3i v = at - lo;
         return static_cast<std::size_t>((v.x * size.y + v.y) * size.z + v.z);
     };
-    for_each_voxel(found, [&](const FoundVoxel& v) {
-        coverage.at(index(v.at)) = {covered(v.coverage, 0), covered(v.coverage, 1),
-                                    covered(v.coverage, 2)};
+    for_each_voxel(found, [&](const BlockVoxel& v) {
+        coverage.at(index(v.at)) = {covered(v.coverage(), 0), covered(v.coverage(), 1),
+                                    covered(v.coverage(), 2)};
     });
     for (int x = lo.x; x < rays.hi().x; ++x) {
         for (int y = lo.y; y < rays.hi().y; ++y) {

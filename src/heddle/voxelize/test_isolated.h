@@ -132,7 +132,7 @@ private:
         options.coverage = options_.coverage;
         const Vec3d h = options_.voxel_size;
         std::vector<Vec3d> found(fibers_.size());
-        for_each_voxel(*voxelize_now(geometry_, options), [&](const FoundVoxel& v) {
+        for_each_voxel(*voxelize_now(geometry_, options), [&](const BlockVoxel& v) {
             int cell[3];
             for (int a = 0; a < 3; ++a) {
                 cell[a] = static_cast<int>(std::floor(static_cast<double>(v.at[a]) / cell_[a])) +
@@ -141,7 +141,7 @@ private:
             const int f = (cell[2] * side_ + cell[1]) * side_ + cell[0];
             for (int a = 0; a < 3; ++a) {
                 const double face = h.x * h.y * h.z / h[a];
-                found.at(static_cast<std::size_t>(f))[a] += covered(v.coverage, a) * face;
+                found.at(static_cast<std::size_t>(f))[a] += covered(v.coverage(), a) * face;
             }
         });
         return found;

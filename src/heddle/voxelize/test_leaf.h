@@ -59,8 +59,9 @@ inline std::vector<Lobe> voxelize_directions(const std::vector<std::vector<Vec3d
     VoxelizeOptions options;
     options.voxel_size = {1.0, 1.0, 1.0};
     std::vector<Lobe> lobes(sets.size());
-    for_each_voxel(*voxelize_now(geometry_of(curves), options), [&](const FoundVoxel& v) {
-        if (v.at.y == 0 && v.at.z == 0) lobes.at(static_cast<std::size_t>(v.at.x / 2)) = v.lobes[0];
+    for_each_voxel(*voxelize_now(geometry_of(curves), options), [&](const BlockVoxel& v) {
+        if (v.at.y == 0 && v.at.z == 0)
+            lobes.at(static_cast<std::size_t>(v.at.x / 2)) = v.lobes()[0];
     });
     return lobes;
 }

@@ -80,13 +80,13 @@ struct Content {
 
 inline std::map<Key, Content> content_of(const VoxelSource& source) {
     std::map<Key, Content> content;
-    for_each_voxel(source, [&](const FoundVoxel& v) {
-        content[{v.at.x, v.at.y, v.at.z}] = {v.coverage,
-                                             {v.lobes.begin(), v.lobes.end()},
-                                             {v.maps.begin(), v.maps.end()},
-                                             v.merge_order,
-                                             v.footprints,
-                                             v.correlation};
+    for_each_voxel(source, [&](const BlockVoxel& v) {
+        content[{v.at.x, v.at.y, v.at.z}] = {v.coverage(),
+                                             {v.lobes().begin(), v.lobes().end()},
+                                             {v.maps().begin(), v.maps().end()},
+                                             v.merge_order(),
+                                             v.footprints(),
+                                             v.correlation()};
     });
     EXPECT_EQ(static_cast<std::int64_t>(content.size()), source.info().voxel_count);
     return content;

@@ -5,6 +5,7 @@
 #include <heddle/executor/host_executor.h>
 #include <heddle/lod/build_levels.h>
 #include <heddle/lod/source_part.h>
+#include <heddle/voxel/leaf_voxels.h>
 #include <heddle/voxelize/test_swatch.h>
 
 #include <gtest/gtest.h>
@@ -51,18 +52,9 @@ struct Place {
 
 std::vector<Place> places_of(const VoxelBlock& block, Vec3i index) {
     std::vector<Place> out;
-    for (const VoxelLeaf& leaf : block.leaves) {
-        std::size_t lobe = leaf.first_lobe;
-        std::size_t voxel = leaf.first_voxel;
-        for (int x = 0; x < 8; ++x) {
-            for (std::uint64_t w = leaf.active[static_cast<std::size_t>(x)]; w != 0; w &= w - 1) {
-                const int bit = std::countr_zero(w);
-                const Vec3i at = leaf.origin + Vec3i{x, bit >> 3, bit & 7} - index * kBlockVoxels;
-                out.push_back({z_order_of(at), voxel, lobe});
-                lobe += block.lobe_count[voxel++];
-            }
-        }
-    }
+    for_each_voxel(block, [&](const BlockVoxel& v) {
+        out.push_back({z_order_of(v.at - index * kBlockVoxels), v.voxel, v.lobe});
+    });
     std::sort(out.begin(), out.end(), [](const Place& a, const Place& b) { return a.key < b.key; });
     return out;
 }

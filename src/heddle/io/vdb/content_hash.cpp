@@ -4,9 +4,9 @@
 #include <heddle/base/random.h>
 #include <heddle/io/vdb/grid_name.h>
 #include <heddle/io/vdb/grid_reader.h>
+#include <heddle/voxel/leaf_voxels.h>
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
 #include <iomanip>
 #include <sstream>
@@ -32,15 +32,12 @@ std::uint64_t hash_voxels(const GridLeaves& grid, std::uint64_t seed) {
             const std::uint64_t at =
                 hash64(seed, word(leaf.origin.x) << 32 | word(leaf.origin.y), word(leaf.origin.z));
             const std::byte* value = grid.values.data() + leaf.first * grid.value_bytes;
-            for (std::size_t x = 0; x < 8; ++x) {
-                for (std::uint64_t w = leaf.active[x]; w != 0; w &= w - 1) {
-                    std::uint64_t words[2] = {0, 0};
-                    std::memcpy(words, value, grid.value_bytes);
-                    const auto bit = static_cast<std::uint64_t>(std::countr_zero(w));
-                    sum += hash64(at + x * 64 + bit, words[0], words[1]);
-                    value += grid.value_bytes;
-                }
-            }
+            for_each_active(leaf.active, [&](std::size_t x, int bit) {
+                std::uint64_t words[2] = {0, 0};
+                std::memcpy(words, value, grid.value_bytes);
+                sum += hash64(at + x * 64 + static_cast<std::uint64_t>(bit), words[0], words[1]);
+                value += grid.value_bytes;
+            });
         }
         return sum;
     };

@@ -3,7 +3,8 @@
 #include <heddle/base/error.h>
 #include <heddle/base/parallel.h>
 #include <heddle/io/file/input_file.h>
-#include <heddle/io/vdb/leaf_table.h>
+#include <heddle/io/vdb/vdb_leaves.h>
+#include <heddle/voxel/leaf_voxels.h>
 
 #include <openvdb/io/Compression.h>
 
@@ -217,13 +218,11 @@ void decode_leaf(const Chunk& chunk, ValueType type, const LeafMask& active, std
     }
     char all[512 * 12];
     openvdb::io::bloscFromStream(in, all, bytes);
-    for (std::size_t x = 0; x < 8; ++x) {
-        for (std::uint64_t w = active[x]; w != 0; w &= w - 1) {
-            const auto i = x * 64 + static_cast<std::size_t>(std::countr_zero(w));
-            std::memcpy(to, all + i * type.stored, type.stored);
-            to += type.stored;
-        }
-    }
+    for_each_active(active, [&](std::size_t x, int bit) {
+        const std::size_t i = x * 64 + static_cast<std::size_t>(bit);
+        std::memcpy(to, all + i * type.stored, type.stored);
+        to += type.stored;
+    });
 }
 
 void sort_leaves(GridLeaves& grid, const Bytes& in) {

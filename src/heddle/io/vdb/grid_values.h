@@ -2,6 +2,7 @@
 
 #include <heddle/sggx/eigen.h>
 #include <heddle/sggx/pack.h>
+#include <heddle/voxel/leaf_voxels.h>
 #include <heddle/voxel/voxel_grid.h>
 
 #include <algorithm>
@@ -245,18 +246,16 @@ struct SumValues : OfLobe {
 /// Calls put(x, bit, v, l) for each voxel of the leaf that is active in the grid, in the order of
 /// the leaf.
 template <typename Values, typename Put>
-void for_each_active(const VoxelBlock& block,
-                     const VoxelLeaf& leaf,
-                     const Values& values,
-                     Put put) {
+void for_each_in_grid(const VoxelBlock& block,
+                      const VoxelLeaf& leaf,
+                      const Values& values,
+                      const Put& put) {
     std::size_t v = leaf.first_voxel;
     std::size_t l = leaf.first_lobe;
-    for (std::size_t x = 0; x < 8; ++x) {
-        for (std::uint64_t w = leaf.active[x]; w != 0; w &= w - 1) {
-            if (values.has(block, v, l)) put(x, std::countr_zero(w), v, l);
-            l += block.lobe_count[v++];
-        }
-    }
+    for_each_active(leaf.active, [&](std::size_t x, int bit) {
+        if (values.has(block, v, l)) put(x, bit, v, l);
+        l += block.lobe_count[v++];
+    });
 }
 
 } // namespace heddle

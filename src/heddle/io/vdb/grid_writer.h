@@ -4,7 +4,7 @@
 #include <heddle/base/function_ref.h>
 #include <heddle/base/parallel.h>
 #include <heddle/base/progress.h>
-#include <heddle/io/vdb/leaf_table.h>
+#include <heddle/io/vdb/vdb_leaves.h>
 
 #include <openvdb/io/Compression.h>
 #include <openvdb/util/NodeMasks.h>

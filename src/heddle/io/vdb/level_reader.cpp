@@ -5,6 +5,7 @@
 #include <heddle/io/vdb/grid_reader.h>
 #include <heddle/io/vdb/level_grids.h>
 #include <heddle/sggx/pack.h>
+#include <heddle/voxel/leaf_voxels.h>
 
 #include <algorithm>
 #include <cstring>
@@ -69,11 +70,11 @@ class LevelReader {
 public:
     LevelReader(const std::string& path, const VdbContents& file, const VoxelGridInfo& info)
         : path_(path), file_(file), grid_(std::make_unique<VoxelGrid>()) {
-        grid_->about = info;
+        grid_->set_info(info);
     }
 
     std::unique_ptr<VoxelGrid> run() {
-        const VoxelGridInfo& info = grid_->about;
+        const VoxelGridInfo& info = grid_->info();
         const int lobes = read_lobes();
         const LevelGrids of{info.level, info.fields, lobes,
                             file_.find(grid_name(GridKind::Merge, 0, info.level)) != nullptr};
@@ -95,7 +96,7 @@ private:
     [[noreturn]] void fail_at(const std::string& what, std::size_t x, int bit, Vec3i origin) const {
         fail(str("voxel (", origin.x + static_cast<int>(x), ", ", origin.y + (bit >> 3), ", ",
                  origin.z + (bit & 7), ")",
-                 grid_->about.level > 0 ? str(" of level ", grid_->about.level) : "", " ", what));
+                 grid_->info().level > 0 ? str(" of level ", grid_->info().level) : "", " ", what));
     }
 
     template <typename Values>
@@ -113,7 +114,7 @@ private:
     /// Makes the blocks with their voxels and lobes only.
     /// @return  the largest number of lobes of a voxel
     int read_lobes() {
-        const VoxelGridInfo& info = grid_->about;
+        const VoxelGridInfo& info = grid_->info();
         const GridLeaves coverage =
             read(grid_name(GridKind::Coverage, 0, info.level), CoverageValues{});
         std::vector<GridLeaves> lobes;
@@ -164,23 +165,20 @@ private:
         LeafCursor covered(coverage, leaf.origin);
         std::vector<LeafCursor> cursors;
         for (const GridLeaves& of : lobes) cursors.emplace_back(of, leaf.origin);
-        for (std::size_t x = 0; x < 8; ++x) {
-            for (std::uint64_t w = leaf.active[x]; w != 0; w &= w - 1) {
-                const int bit = std::countr_zero(w);
-                std::size_t n = 0;
-                for (; n < cursors.size() && cursors[n].active(x, bit); ++n) {
-                    block.lobes.push_back(cursors[n].take<Lobe>());
-                    check_lobe(block.lobes.back(), x, bit, leaf.origin);
-                }
-                if (n == 0) fail_at("has coverage and no lobe", x, bit, leaf.origin);
-                block.coverage.push_back(covered.take<Coverage>());
-                block.lobe_count.push_back(static_cast<std::uint8_t>(n));
+        for_each_active(leaf.active, [&](std::size_t x, int bit) {
+            std::size_t n = 0;
+            for (; n < cursors.size() && cursors[n].active(x, bit); ++n) {
+                block.lobes.push_back(cursors[n].take<Lobe>());
+                check_lobe(block.lobes.back(), x, bit, leaf.origin);
             }
-        }
+            if (n == 0) fail_at("has coverage and no lobe", x, bit, leaf.origin);
+            block.coverage.push_back(covered.take<Coverage>());
+            block.lobe_count.push_back(static_cast<std::uint8_t>(n));
+        });
     }
 
     void check_lobe(const Lobe& lobe, std::size_t x, int bit, Vec3i origin) const {
-        const std::size_t materials = grid_->about.materials.size();
+        const std::size_t materials = grid_->info().materials.size();
         if (lobe.weight == 0) fail_at("has a lobe of weight 0 (allowed: 1 to 255)", x, bit, origin);
         if (lobe.material >= materials) {
             fail_at(str("names material ", int{lobe.material}, " of ", materials), x, bit, origin);
@@ -191,7 +189,7 @@ private:
     }
 
     void check_counts(std::size_t lobes_in_grids) const {
-        const VoxelGridInfo& info = grid_->about;
+        const VoxelGridInfo& info = grid_->info();
         const std::string level = info.level > 0 ? str("level ", info.level, " ") : "";
         std::int64_t voxels = 0, lobes = 0;
         for (const VoxelBlock& b : grid_->blocks) {
@@ -235,7 +233,7 @@ private:
         std::size_t taken = 0;
         for (const VoxelLeaf& leaf : block.leaves) {
             LeafCursor cursor(grid, leaf.origin);
-            for_each_active(
+            for_each_in_grid(
                 block, leaf, values, [&](std::size_t x, int bit, std::size_t v, std::size_t l) {
                     if (!cursor.active(x, bit)) {
                         fail_at(str("has no value in grid '", name, "'"), x, bit, leaf.origin);
@@ -249,16 +247,16 @@ private:
 
     void check_merges() const {
         const auto check = [&](const VoxelBlock& block, const VoxelLeaf& leaf) {
-            for_each_active(block, leaf, MergeValues{},
-                            [&](std::size_t x, int bit, std::size_t v, std::size_t) {
-                                for (int lobe = 2; lobe < block.lobe_count[v]; ++lobe) {
-                                    const int target = merge_target(block.merge_order[v], lobe);
-                                    if (target < lobe) continue;
-                                    fail_at(str("merges lobe ", lobe, " into lobe ", target,
-                                                " (allowed: 0 to ", lobe - 1, ")"),
-                                            x, bit, leaf.origin);
-                                }
-                            });
+            for_each_in_grid(block, leaf, MergeValues{},
+                             [&](std::size_t x, int bit, std::size_t v, std::size_t) {
+                                 for (int lobe = 2; lobe < block.lobe_count[v]; ++lobe) {
+                                     const int target = merge_target(block.merge_order[v], lobe);
+                                     if (target < lobe) continue;
+                                     fail_at(str("merges lobe ", lobe, " into lobe ", target,
+                                                 " (allowed: 0 to ", lobe - 1, ")"),
+                                             x, bit, leaf.origin);
+                                 }
+                             });
         };
         for (const VoxelBlock& block : grid_->blocks) {
             for (const VoxelLeaf& leaf : block.leaves) check(block, leaf);

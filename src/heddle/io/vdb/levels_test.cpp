@@ -65,16 +65,16 @@ TEST_F(VdbLevels, EveryArrayOfEveryLevelReadsBackAsItWas) {
 TEST_F(VdbLevels, InfosOfLevelsDifferInLatticeLevelAndCountsAlone) {
     VoxelLevels levels = make_levels(3, 4);
     grid_of(levels, 2) = testing::make_helix(10.0, 2.0, 1);
-    VoxelGridInfo& coarse = grid_of(levels, 2).about;
+    VoxelGridInfo& coarse = grid_of(levels, 2).info();
     const std::int64_t voxels = coarse.voxel_count;
-    coarse = grid_of(levels, 1).about;
+    coarse = grid_of(levels, 1).info();
     coarse.level = 2;
     coarse.lattice = lattice_of_level(levels[0]->info().lattice, 2);
     coarse.materials.resize(3);
     testing::add_fields(grid_of(levels, 2));
     testing::add_level_arrays(grid_of(levels, 2));
-    grid_of(levels, 0).about.materials.resize(3);
-    grid_of(levels, 0).about.approximate = true;
+    grid_of(levels, 0).info().materials.resize(3);
+    grid_of(levels, 0).info().approximate = true;
 
     const std::vector<VoxelGridInfo> infos = read_infos(write(levels));
     ASSERT_EQ(infos.size(), 3u);
@@ -260,10 +260,10 @@ TEST_F(VdbLevels, LevelsOffTheirLatticeOrOutOfStepAreNotWritten) {
     };
     refused([](VoxelLevels& l) { l.clear(); }, "0 levels");
     refused([](VoxelLevels& l) { std::swap(l[0], l[1]); }, "level 1 stands at place 0");
-    refused([](VoxelLevels& l) { grid_of(l, 1).about.lattice.subvoxels = 4; }, "off its lattice");
+    refused([](VoxelLevels& l) { grid_of(l, 1).info().lattice.subvoxels = 4; }, "off its lattice");
     refused([](VoxelLevels& l) { grid_of(l, 0).blocks[2].columns.pop_back(); }, "arrays");
     refused([](VoxelLevels& l) { grid_of(l, 1).blocks[2].correlation.clear(); }, "arrays");
-    refused([](VoxelLevels& l) { grid_of(l, 1).about.fields.footprints = 5; }, "footprints of 5");
+    refused([](VoxelLevels& l) { grid_of(l, 1).info().fields.footprints = 5; }, "footprints of 5");
 }
 
 TEST_F(VdbLevels, PredictedSizeOfLevelsIsAnUpperBoundAndNotFar) {

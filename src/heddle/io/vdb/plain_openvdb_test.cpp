@@ -40,11 +40,11 @@ PlainGrids write_and_read(const VoxelGrid& grid) {
 
 TEST(PlainOpenVdb, DensityAndTangentStandWhereTheVoxelsAre) {
     VoxelGrid grid = testing::make_helix(12.0, 2.0, 1);
-    grid.about.lattice.voxel_size = {0.5, 0.25, 2.0};
+    grid.info().lattice.voxel_size = {0.5, 0.25, 2.0};
     const auto [density, tangent] = write_and_read(grid);
 
     EXPECT_EQ(density->getGridClass(), openvdb::GRID_FOG_VOLUME);
-    EXPECT_EQ(density->activeVoxelCount(), static_cast<openvdb::Index64>(grid.about.voxel_count));
+    EXPECT_EQ(density->activeVoxelCount(), static_cast<openvdb::Index64>(grid.info().voxel_count));
     EXPECT_EQ(tangent->activeVoxelCount(), density->activeVoxelCount());
     const openvdb::Vec3d corner_voxel = density->indexToWorld(openvdb::Coord(0, 0, 0));
     EXPECT_EQ(corner_voxel, openvdb::Vec3d(0.25, 0.125, 1.0)); // the centre of [0, 0.5] x ...
@@ -86,7 +86,8 @@ TEST(PlainOpenVdb, DensityOfLevelTwoStandsOnItsCoarserLattice) {
     std::filesystem::remove(path);
 
     EXPECT_EQ(density->getGridClass(), openvdb::GRID_FOG_VOLUME);
-    EXPECT_EQ(density->activeVoxelCount(), static_cast<openvdb::Index64>(coarse.about.voxel_count));
+    EXPECT_EQ(density->activeVoxelCount(),
+              static_cast<openvdb::Index64>(coarse.info().voxel_count));
     const Vec3d h = levels[0]->info().lattice.voxel_size * 4.0;
     const openvdb::Vec3d at = density->indexToWorld(openvdb::Coord(3, -1, 0));
     EXPECT_EQ(at, openvdb::Vec3d(3.5 * h.x, -0.5 * h.y, 0.5 * h.z));
@@ -103,7 +104,7 @@ TEST(PlainOpenVdb, DensityOfLevelTwoStandsOnItsCoarserLattice) {
 TEST(PlainOpenVdb, VoxelsOfMicrometresKeepTheirSize) {
     for (const Vec3d size : {Vec3d{2e-6, 2e-6, 2e-6}, Vec3d{2e-6, 1e-6, 4e-6}}) {
         VoxelGrid grid = testing::make_helix(4.0, 1.0, 1);
-        grid.about.lattice.voxel_size = size;
+        grid.info().lattice.voxel_size = size;
         const auto density = write_and_read(grid).density;
         const openvdb::Vec3d at = density->indexToWorld(openvdb::Coord(10, 20, 30));
         EXPECT_DOUBLE_EQ(at.x(), 10.5 * size.x);

@@ -55,7 +55,7 @@ VoxelGrid make_small() {
         v.lobes = {{testing::needle({0.6f, 0.8f, 0.0f}), 255, 0}};
     }
     VoxelGrid grid;
-    grid.about.materials.resize(1);
+    grid.info().materials.resize(1);
     grid.blocks = testing::make_blocks(voxels);
     testing::count_voxels(grid);
     return grid;
@@ -68,7 +68,7 @@ VoxelGrid make_one_voxel() {
     v.coverage = {4, 5, 6, 7};
     v.lobes = {{testing::needle({0.6f, 0.8f, 0.0f}), 255, 0}};
     VoxelGrid grid;
-    grid.about.materials.resize(1);
+    grid.info().materials.resize(1);
     grid.blocks = testing::make_blocks(voxels);
     testing::count_voxels(grid);
     return grid;

@@ -81,10 +81,10 @@ TEST_F(ReplaceMaterials, OpenVdbReadsWhatWasWritten) {
 TEST_F(ReplaceMaterials, AFileWithoutGridsOrAnotherCountIsHandled) {
     const std::string empty = folder_.file("empty.vdb");
     VoxelGrid grid;
-    grid.about.materials.resize(1);
+    grid.info().materials.resize(1);
     write_vdb(grid, empty, progress_);
-    grid.about.materials[0].name = "dust";
-    replace_materials(empty, grid.about.materials, empty, progress_);
+    grid.info().materials[0].name = "dust";
+    replace_materials(empty, grid.info().materials, empty, progress_);
     EXPECT_EQ(read_infos(empty)[0].materials[0].name, "dust");
     materials_.resize(3);
     testing::expect_error(ErrorCode::InvalidArgument, "3 materials for a file that has 2",

@@ -36,17 +36,17 @@ inline VoxelGrid make_mixed(int block_voxels = 32,
         }
     }
     VoxelGrid grid;
-    grid.about.name = "mixed \"quoted\"";
-    grid.about.lattice = {{0.1, 0.25, 0.3}, 4};
-    grid.about.fields = {true, true, true};
-    grid.about.materials.resize(2);
-    grid.about.materials[0].name = "wool";
-    grid.about.materials[0].kind = MaterialKind::Fiber;
-    grid.about.materials[1].albedo = {0.1f, 0.2f, 0.3f};
-    grid.about.yarns.resize(1);
-    grid.about.yarns[0].plies = 3;
-    grid.about.yarns[0].hair_ze = {0.1f, 0.7f};
-    grid.about.command = "heddle voxelize a.bcc -o a.vdb";
+    grid.info().name = "mixed \"quoted\"";
+    grid.info().lattice = {{0.1, 0.25, 0.3}, 4};
+    grid.info().fields = {true, true, true};
+    grid.info().materials.resize(2);
+    grid.info().materials[0].name = "wool";
+    grid.info().materials[0].kind = MaterialKind::Fiber;
+    grid.info().materials[1].albedo = {0.1f, 0.2f, 0.3f};
+    grid.info().yarns.resize(1);
+    grid.info().yarns[0].plies = 3;
+    grid.info().yarns[0].hair_ze = {0.1f, 0.7f};
+    grid.info().command = "heddle voxelize a.bcc -o a.vdb";
     grid.blocks = make_blocks(voxels, block_voxels);
     add_fields(grid);
     count_voxels(grid);
@@ -56,9 +56,9 @@ inline VoxelGrid make_mixed(int block_voxels = 32,
 /// Adds the arrays of levels to a grid whose `about` is complete: bytes that depend on the index of
 /// the voxel or lobe, and valid merge orders.
 inline void add_level_arrays(VoxelGrid& grid) {
-    const VoxelGridFields& has = grid.about.fields;
-    const bool masks = has.masks && grid.about.level == 0;
-    CounterRandom random{11, static_cast<std::uint64_t>(grid.about.level)};
+    const VoxelGridFields& has = grid.info().fields;
+    const bool masks = has.masks && grid.info().level == 0;
+    CounterRandom random{11, static_cast<std::uint64_t>(grid.info().level)};
     const auto any = [&] { return static_cast<std::int64_t>(random.next()); };
     for (VoxelBlock& block : grid.blocks) {
         for (std::size_t v = 0; v < block.coverage.size(); ++v) {
@@ -92,7 +92,7 @@ make_levels(int count, std::int32_t footprints = 8, const std::vector<int>& shif
     VoxelLevels levels;
     for (int level = 0; level < count; ++level) {
         auto grid = std::make_unique<VoxelGrid>(make_mixed(32, shifts));
-        VoxelGridInfo& about = grid->about;
+        VoxelGridInfo& about = grid->info();
         about.lattice = lattice_of_level(about.lattice, level);
         about.level = level;
         about.lod = "moments";

@@ -71,14 +71,14 @@ struct HalfDirectionValues : DirectionValues {
     }
 };
 
-/// A level to write, and the table of its leaves.
+/// A level to write, and its leaves.
 struct Level {
     const VoxelSource& source;
-    LeafTable table;
+    VdbLeaves found;
 
     [[nodiscard]] const VoxelGridInfo& info() const { return source.info(); }
     [[nodiscard]] LevelGrids grids() const {
-        return {info().level, info().fields, table.most_lobes, table.merge_voxels > 0};
+        return {info().level, info().fields, found.most_lobes, found.merge_voxels > 0};
     }
 };
 
@@ -106,7 +106,7 @@ public:
         write_leaves<Value>(level, name, leaves,
                             [&](const VoxelBlock& block, const VoxelLeaf& leaf, Value* buffer) {
                                 std::size_t n = 0;
-                                for_each_active(
+                                for_each_in_grid(
                                     block, leaf, values,
                                     [&](std::size_t, int, std::size_t v, std::size_t l) {
                                         buffer[n++] = values.value(block, v, l);
@@ -168,9 +168,9 @@ private:
                          openvdb::StringMetadata("blosc + active values"));
         if (voxels == 0) return about;
         about.insertMeta(GridBase::META_FILE_BBOX_MIN,
-                         openvdb::Vec3IMetadata(to_vdb(level.table.lo)));
+                         openvdb::Vec3IMetadata(to_vdb(level.found.box.lo)));
         about.insertMeta(GridBase::META_FILE_BBOX_MAX,
-                         openvdb::Vec3IMetadata(to_vdb(level.table.hi)));
+                         openvdb::Vec3IMetadata(to_vdb(level.found.box.hi)));
         return about;
     }
 
@@ -188,7 +188,7 @@ public:
         for_each_voxel_grid(level_.grids(), [&](const std::string& name, const auto& values) {
             archive_.write(level_, name, values, leaves_of(values));
         });
-        for (int k = 0; k < level_.table.most_lobes; ++k) {
+        for (int k = 0; k < level_.found.most_lobes; ++k) {
             const auto leaves = leaves_of(OfLobe{static_cast<std::size_t>(k)});
             for_each_lobe_grid(level_.grids(), k, [&](const std::string& name, const auto& values) {
                 archive_.write(level_, name, values, leaves);
@@ -198,7 +198,7 @@ public:
 
     /// The number of grids that write() writes.
     [[nodiscard]] static int count(const Level& level) {
-        int grids = 1 + (level.table.fiber_voxels > 0) + (level.table.surface_voxels > 0);
+        int grids = 1 + (level.found.fiber_voxels > 0) + (level.found.surface_voxels > 0);
         for_each_grid(level.grids(), [&](const std::string&, const auto&) { ++grids; });
         return grids;
     }
@@ -208,32 +208,32 @@ private:
     void write_derived() {
         const VoxelGridInfo& info = level_.info();
         const auto name = [&](GridKind kind) { return grid_name(kind, 0, info.level); };
-        const std::span<const LeafRef> all = level_.table.leaves;
+        const std::span<const LeafRef> all = level_.found.leaves;
         archive_.write(level_, name(GridKind::Density), DensityValues(info.lattice), all);
         for (const MaterialKind kind : {MaterialKind::Fiber, MaterialKind::Surface}) {
             const bool fiber = kind == MaterialKind::Fiber;
             const std::int64_t voxels =
-                fiber ? level_.table.fiber_voxels : level_.table.surface_voxels;
+                fiber ? level_.found.fiber_voxels : level_.found.surface_voxels;
             if (voxels == 0) continue;
             const HalfDirectionValues values(info.materials, kind);
             archive_.write(level_, name(fiber ? GridKind::Tangent : GridKind::Normal), values,
-                           voxels == level_.table.voxel_count ? all : select(values));
+                           voxels == level_.found.voxel_count ? all : select(values));
         }
     }
 
     template <typename Values>
     std::span<const LeafRef> leaves_of(const Values& values) {
-        if (values.every_voxel()) return level_.table.leaves;
+        if (values.every_voxel()) return level_.found.leaves;
         return select(values);
     }
 
     /// The result is valid until the next call.
     template <typename Values>
     std::span<const LeafRef> select(const Values& values) {
-        selected_ = select_leaves(level_.source, level_.table.leaves,
+        selected_ = select_leaves(level_.source, level_.found.leaves,
                                   [&](const VoxelBlock& block, const VoxelLeaf& leaf) {
                                       LeafMask active{};
-                                      for_each_active(
+                                      for_each_in_grid(
                                           block, leaf, values,
                                           [&](std::size_t x, int bit, std::size_t, std::size_t) {
                                               active[x] |= std::uint64_t{1} << bit;
@@ -251,8 +251,8 @@ private:
 openvdb::MetaMap make_metadata(std::span<const Level> levels) {
     std::vector<LevelCounts> counts;
     for (const Level& level : levels) {
-        const LeafTable& table = level.table;
-        counts.push_back({table.voxel_count, table.lobe_count, table.lo, table.hi});
+        const VdbLeaves& found = level.found;
+        counts.push_back({found.voxel_count, found.lobe_count, found.box.lo, found.box.hi});
     }
     const InfoJson json = to_json(levels[0].info(), counts);
     openvdb::MetaMap metadata;
@@ -293,7 +293,7 @@ void write_grids(std::ostream& out, std::span<const Level> levels, Progress& pro
     for (const Level& level : levels) {
         const int n = LevelWriter::count(level);
         grids += n;
-        work += static_cast<std::int64_t>(level.table.leaves.size()) * n;
+        work += static_cast<std::int64_t>(level.found.leaves.size()) * n;
     }
     progress.begin("write", "leaves", work);
     Archive archive(out, progress);
@@ -309,7 +309,7 @@ void write_sources(std::span<const VoxelSource* const> sources,
     openvdb::initialize();
     std::vector<Level> levels;
     for (const VoxelSource* source : sources) {
-        levels.push_back({*source, make_leaf_table(*source, progress)});
+        levels.push_back({*source, list_vdb_leaves(*source, progress)});
     }
     try {
         std::vector<char> buffer(kBufferBytes); // must outlive the stream

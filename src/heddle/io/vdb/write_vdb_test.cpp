@@ -40,17 +40,17 @@ TEST_F(WriteVdb, ReadsBackEveryVoxelAsItWas) {
 TEST_F(WriteVdb, ReadsBackWhatIsKnownOfTheObject) {
     const VoxelGrid grid = make_mixed();
     write_vdb(grid, file("a.vdb"), progress_);
-    const VoxelGridInfo info = read_vdb(file("a.vdb"))->about;
-    EXPECT_EQ(info.name, grid.about.name);
-    EXPECT_EQ(info.command, grid.about.command);
-    EXPECT_EQ(info.lattice.voxel_size, grid.about.lattice.voxel_size);
+    const VoxelGridInfo info = read_vdb(file("a.vdb"))->info();
+    EXPECT_EQ(info.name, grid.info().name);
+    EXPECT_EQ(info.command, grid.info().command);
+    EXPECT_EQ(info.lattice.voxel_size, grid.info().lattice.voxel_size);
     EXPECT_EQ(info.lattice.subvoxels, 4);
     EXPECT_TRUE(info.fields.albedo && info.fields.surface && info.fields.tangents);
-    EXPECT_EQ(info.voxel_count, grid.about.voxel_count);
-    EXPECT_EQ(info.lobe_count, grid.about.lobe_count);
+    EXPECT_EQ(info.voxel_count, grid.info().voxel_count);
+    EXPECT_EQ(info.lobe_count, grid.info().lobe_count);
     ASSERT_EQ(info.materials.size(), 2u);
     EXPECT_EQ(info.materials[0].kind, MaterialKind::Fiber);
-    EXPECT_EQ(info.materials[1].albedo, grid.about.materials[1].albedo);
+    EXPECT_EQ(info.materials[1].albedo, grid.info().materials[1].albedo);
     ASSERT_EQ(info.yarns.size(), 1u);
     EXPECT_EQ(info.yarns[0].plies, 3);
     EXPECT_EQ(info.yarns[0].hair_ze.sd, 0.7f);
@@ -79,7 +79,7 @@ TEST_F(WriteVdb, ContentHashDependsOnVoxelsNotOnBlocksOrThreads) {
     set_thread_count(0);
     VoxelGrid changed = make_mixed();
     changed.blocks[0].coverage[0].x ^= 1;
-    changed.about.fields = {};
+    changed.info().fields = {};
     for (VoxelBlock& b : changed.blocks) {
         b.maps.clear();
         b.tangents.clear();
@@ -113,7 +113,7 @@ TEST_F(WriteVdb, PredictedSizeIsAnUpperBoundAndNotFar) {
     for (const VoxelBlock& b : grid.blocks) leaves += static_cast<std::int64_t>(b.leaves.size());
     const auto size = static_cast<std::int64_t>(fs::file_size(file("a.vdb")));
     const std::int64_t predicted =
-        predict_vdb_bytes(leaves, grid.about.voxel_count, grid.about.lobe_count, {}).file;
+        predict_vdb_bytes(leaves, grid.info().voxel_count, grid.info().lobe_count, {}).file;
     EXPECT_LE(size, predicted);
     EXPECT_GT(size * 5, predicted);
 }

@@ -38,15 +38,15 @@ class VolSource final : public VoxelSource {
 public:
     VolSource(const VolLayout& layout, const VolOptions& options, double scale, Vec3i origin)
         : layout_(layout), origin_(origin), medium_(layout.pitch, scale) {
-        about.name = layout.name;
-        about.lattice = {layout.pitch, VolMedium::kSubvoxels};
-        about.max_lobes = options.max_lobes;
-        about.command = options.command;
+        info_.name = layout.name;
+        info_.lattice = {layout.pitch, VolMedium::kSubvoxels};
+        info_.max_lobes = options.max_lobes;
+        info_.command = options.command;
         Material material;
         material.name = layout.name;
         material.kind = MaterialKind::Fiber;
         material.albedo = options.albedo;
-        about.materials = {material};
+        info_.materials = {material};
         list_corners();
     }
 
@@ -255,8 +255,9 @@ VolVolume read_vol(const VolLayout& layout, const VolOptions& options, Progress&
     const double scale = given ? options.density_scale : default_density_scale(layout.pitch);
     auto source = std::make_unique<VolSource>(layout, options, scale, origin);
     const BlockCounts counts = count_voxels(*source, progress);
-    source->about.voxel_count = counts.voxels;
-    source->about.lobe_count = counts.voxels;
+    VoxelGridInfo info = source->info();
+    info.voxel_count = info.lobe_count = counts.voxels;
+    source->set_info(std::move(info));
     VolVolume out;
     out.notes.push_back(note_move(layout, origin));
     if (!given) {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <heddle/base/progress.h>
+#include <heddle/flake/flake_field.h>
 #include <heddle/geom/bounds.h>
-#include <heddle/voxel/flake_field.h>
 
 #include <cstdint>
 #include <string>

@@ -5,6 +5,7 @@
 #include <heddle/io/vol/vol_dictionary.h>
 #include <heddle/sggx/eigen.h>
 #include <heddle/sggx/pack.h>
+#include <heddle/voxel/leaf_voxels.h>
 
 #include <algorithm>
 #include <array>
@@ -76,27 +77,17 @@ void for_each_sample(const VoxelSource& source, Progress& progress, const Visit&
     VoxelBlock scratch;
     for (std::size_t b = 0; b < source.block_count(); ++b) {
         progress.check();
-        const VoxelBlock& block = source.block(b, scratch);
-        for (const VoxelLeaf& leaf : block.leaves) {
-            std::size_t v = leaf.first_voxel;
-            std::size_t lobe = leaf.first_lobe;
-            for (int bit = 0; bit < 512; ++bit) {
-                if ((leaf.active[static_cast<std::size_t>(bit / 64)] >> (bit % 64) & 1u) == 0) {
-                    continue;
-                }
-                Sample sample{.at = leaf.origin + Vec3i{bit / 64, bit / 8 % 8, bit % 8}};
-                double density = extinction(block.coverage[v], info.lattice);
-                const Lobe& first = block.lobes[lobe]; // the heaviest
-                if (info.materials[first.material].kind == MaterialKind::Fiber) {
-                    set_direction(sample, principal_direction(unpack(first.sggx)));
-                    density /= mean_sine(stored_direction(sample));
-                }
-                sample.density = static_cast<float>(density);
-                visit(sample);
-                lobe += block.lobe_count[v];
-                ++v;
+        for_each_voxel(source.block(b, scratch), [&](const BlockVoxel& voxel) {
+            Sample sample{.at = voxel.at};
+            double density = extinction(voxel.coverage(), info.lattice);
+            const Lobe& first = voxel.lobes()[0]; // the heaviest
+            if (info.materials[first.material].kind == MaterialKind::Fiber) {
+                set_direction(sample, principal_direction(unpack(first.sggx)));
+                density /= mean_sine(stored_direction(sample));
             }
-        }
+            sample.density = static_cast<float>(density);
+            visit(sample);
+        });
     }
 }
 

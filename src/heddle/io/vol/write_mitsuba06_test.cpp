@@ -26,9 +26,9 @@ Vec3f tangent_of(int i) {
 /// A row of fiber voxels along x, each with its own direction and density.
 VoxelGrid row() {
     VoxelGrid grid;
-    grid.about.lattice = {{0.5, 0.5, 0.5}, 8};
-    grid.about.materials.resize(1);
-    grid.about.materials[0].kind = MaterialKind::Fiber;
+    grid.info().lattice = {{0.5, 0.5, 0.5}, 8};
+    grid.info().materials.resize(1);
+    grid.info().materials[0].kind = MaterialKind::Fiber;
     for (int i = 0; i < kVoxels; i += 8) {
         VoxelBlock& block = grid.blocks.emplace_back();
         VoxelLeaf& leaf = block.leaves.emplace_back();
@@ -44,8 +44,8 @@ VoxelGrid row() {
             block.lobes.push_back({pack(S), 255, 0});
         }
     }
-    grid.about.voxel_count = kVoxels;
-    grid.about.lobe_count = kVoxels;
+    grid.info().voxel_count = kVoxels;
+    grid.info().lobe_count = kVoxels;
     return grid;
 }
 
@@ -134,7 +134,7 @@ TEST(WriteMitsuba06, SurfacesHaveNoDirectionAndNothingIsAnError) {
     const testing::TempFolder folder;
     Progress silent;
     VoxelGrid grid = row();
-    grid.about.materials[0].kind = MaterialKind::Surface;
+    grid.info().materials[0].kind = MaterialKind::Surface;
     EXPECT_EQ(write_mitsuba06(grid, folder.file("out"), {}, silent).no_fiber, kVoxels);
     EXPECT_THROW((void)write_mitsuba06(VoxelGrid{}, folder.file("none"), {}, silent), Error);
     grid.blocks.back().leaves.back().origin = {70000, 8, -8};

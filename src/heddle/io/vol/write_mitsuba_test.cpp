@@ -19,12 +19,12 @@ namespace {
 /// Two voxels of one leaf: a fiber along z at (1, 2, 3), a disc that faces x at (6, 2, 3).
 VoxelGrid two_voxels(bool colors) {
     VoxelGrid grid;
-    grid.about.lattice = {{0.5, 0.5, 0.25}, 8};
-    grid.about.materials.resize(2);
-    grid.about.materials[0].kind = MaterialKind::Fiber;
-    grid.about.materials[1].albedo = colors ? Vec3f{0.2f, 0.4f, 0.6f} : Vec3f{0.8f, 0.8f, 0.8f};
-    grid.about.voxel_count = 2;
-    grid.about.lobe_count = 2;
+    grid.info().lattice = {{0.5, 0.5, 0.25}, 8};
+    grid.info().materials.resize(2);
+    grid.info().materials[0].kind = MaterialKind::Fiber;
+    grid.info().materials[1].albedo = colors ? Vec3f{0.2f, 0.4f, 0.6f} : Vec3f{0.8f, 0.8f, 0.8f};
+    grid.info().voxel_count = 2;
+    grid.info().lobe_count = 2;
     VoxelBlock& block = grid.blocks.emplace_back();
     VoxelLeaf& leaf = block.leaves.emplace_back();
     leaf.active[1] = std::uint64_t{1} << (2 * 8 + 3);
@@ -38,7 +38,7 @@ VoxelGrid two_voxels(bool colors) {
 
 std::vector<Vec3f> albedo_of(const VoxelGrid& grid) {
     std::vector<Vec3f> out;
-    for (const Material& m : grid.about.materials) out.push_back(m.albedo);
+    for (const Material& m : grid.info().materials) out.push_back(m.albedo);
     return out;
 }
 

@@ -67,9 +67,9 @@ std::vector<GridSummary> weigh(const VoxelLevels& levels, Progress& progress) {
 /// Bytes in a file of the levels above 0, which are written for it under an empty level 0.
 std::vector<std::int64_t> weigh_above(VoxelLevels levels, Progress& progress) {
     auto finest = std::make_unique<VoxelGrid>();
-    finest->about = levels[0]->info();
-    finest->about.fields.masks = false;
-    finest->about.voxel_count = finest->about.lobe_count = 0;
+    finest->info() = levels[0]->info();
+    finest->info().fields.masks = false;
+    finest->info().voxel_count = finest->info().lobe_count = 0;
     levels[0] = std::move(finest);
     return bytes_of(weigh(levels, progress));
 }

@@ -1,11 +1,11 @@
 #include <heddle/job/render/export_volume.h>
 
 #include <heddle/base/memory.h>
+#include <heddle/flake/flake_field.h>
 #include <heddle/io/vdb/read_vdb.h>
 #include <heddle/job/option_error.h>
 #include <heddle/job/output_place.h>
 #include <heddle/job/stage_clock.h>
-#include <heddle/voxel/flake_field.h>
 
 namespace heddle::job {
 namespace {

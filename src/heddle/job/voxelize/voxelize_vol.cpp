@@ -48,7 +48,7 @@ std::unique_ptr<VoxelSource> hold(std::unique_ptr<VoxelSource> source,
         return source;
     }
     auto grid = std::make_unique<VoxelGrid>();
-    grid->about = info;
+    grid->set_info(info);
     grid->blocks.resize(source->block_count());
     progress.begin("decode", "blocks", static_cast<std::int64_t>(grid->blocks.size()));
     parallel_chunks(grid->blocks.size(), 1, [&](std::size_t i, std::size_t) {

@@ -80,9 +80,9 @@ Coverages compare(const Geometry& geometry, double edge, int axis) {
     const auto grid = voxelize_now(geometry, options);
     const auto scene = trace(geometry);
     Coverages sum;
-    for_each_voxel(*grid, [&](const FoundVoxel& voxel) {
+    for_each_voxel(*grid, [&](const BlockVoxel& voxel) {
         const Vec3d lo{voxel.at.x * edge, voxel.at.y * edge, voxel.at.z * edge};
-        sum.voxels += covered(voxel.coverage, axis);
+        sum.voxels += covered(voxel.coverage(), axis);
         int hits = 0;
         for (int i = 0; i < kRays * kRays; ++i) {
             const double u = (i % kRays + 0.5) / kRays;
@@ -113,9 +113,9 @@ Silhouette silhouette_of(const Geometry& geometry, double edge, int axis) {
     options.keep_sums = true;
     const auto grid = voxelize_now(geometry, options);
     Silhouette out;
-    for_each_voxel(*grid, [&](const FoundVoxel& voxel) {
+    for_each_voxel(*grid, [&](const BlockVoxel& voxel) {
         out[{voxel.at[axis == 0 ? 1 : 0], voxel.at[axis == 2 ? 1 : 2]}] |=
-            voxel.columns[static_cast<std::size_t>(axis)];
+            voxel.columns()[static_cast<std::size_t>(axis)];
     });
     return out;
 }

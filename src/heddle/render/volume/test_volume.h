@@ -52,10 +52,10 @@ inline std::shared_ptr<const VolumeLevel> level_of(const VoxelMap& voxels,
                                                    int level = 0,
                                                    MaterialKind kind = MaterialKind::Fiber) {
     VoxelGrid grid;
-    grid.about.lattice = {voxel_size, 8 << level};
-    grid.about.level = level;
-    grid.about.materials.resize(1);
-    grid.about.materials[0].kind = kind;
+    grid.info().lattice = {voxel_size, 8 << level};
+    grid.info().level = level;
+    grid.info().materials.resize(1);
+    grid.info().materials[0].kind = kind;
     grid.blocks = make_blocks(voxels);
     count_voxels(grid);
     return std::make_shared<const VolumeLevel>(grid);

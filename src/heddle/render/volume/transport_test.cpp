@@ -18,12 +18,12 @@ std::shared_ptr<const VolumeLevel> random_level(MaterialKind kind, int level) {
     StreamRandom random{3};
     add_random(voxels, random, {-3, -3, -3}, 6, 150, 0.9);
     VoxelGrid grid;
-    grid.about.lattice = lattice_of_level({{1, 1, 1}, 8}, level);
-    grid.about.level = level;
-    grid.about.materials.resize(1);
-    grid.about.materials[0].kind = kind;
-    grid.about.fields.footprints = 4;
-    grid.about.fields.correlation = true;
+    grid.info().lattice = lattice_of_level({{1, 1, 1}, 8}, level);
+    grid.info().level = level;
+    grid.info().materials.resize(1);
+    grid.info().materials[0].kind = kind;
+    grid.info().fields.footprints = 4;
+    grid.info().fields.correlation = true;
     grid.blocks = make_blocks(voxels);
     count_voxels(grid);
     for (VoxelBlock& block : grid.blocks) {

@@ -1,7 +1,5 @@
 #include <heddle/render/volume/volume_level.h>
 
-#include <heddle/base/error.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -74,29 +72,27 @@ VolumeLevel::VolumeLevel(const VoxelSource& source) : info_(source.info()) {
     const Vec3d h = info_.lattice.voxel_size;
     const auto edge = static_cast<float>(std::max({h.x, h.y, h.z}));
     if (thinnest < kUnknown) fibers_across_ = std::log2(edge / thinnest);
+    IndexBox box;
     VoxelBlock scratch;
-    for (std::size_t b = 0; b < source.block_count(); ++b) append(source.block(b, scratch), table);
-    if (leaves_.size() >= std::size_t{1} << 31) {
-        throw Error(ErrorCode::InvalidArgument,
-                    str("level ", info_.level, " has ", leaves_.size(), " leaves (limit 2^31 - 1)"),
-                    "use a larger voxel size");
+    for (std::size_t b = 0; b < source.block_count(); ++b) {
+        append(source.block(b, scratch), table, box);
     }
-    std::vector<Vec3i> origins = std::move(origins_);
-    sort_leaves(origins);
-    build_tiles(origins);
+    if (box.empty()) return;
+    lo_ = box.lo;
+    hi_ = box.hi + Vec3i{1, 1, 1};
 }
 
 void VolumeLevel::append(const VoxelBlock& block,
-                         const std::vector<std::uint16_t>& depth_of_coverage) {
+                         const std::vector<std::uint16_t>& depth_of_coverage,
+                         IndexBox& box) {
     const std::size_t first_voxel = voxels_.size();
     const std::size_t first_lobe = lobes_.size();
     for (const VoxelLeaf& from : block.leaves) {
-        VolumeLeaf& leaf = leaves_.emplace_back();
-        origins_.push_back(from.origin);
-        leaf.first_voxel = first_voxel + from.first_voxel;
-        leaf.first_lobe = first_lobe + from.first_lobe;
-        leaf.active = from.active;
-        const std::size_t count = count_before(leaf.active, leaf.before);
+        table_.add(from.origin);
+        box.grow(box_of(from));
+        const VolumeLeaf& leaf = leaves_.emplace_back(
+            RankedMask(from.active), first_voxel + from.first_voxel, first_lobe + from.first_lobe);
+        const std::size_t count = leaf.mask.count();
         std::uint32_t lobe = 0;
         for (std::size_t v = from.first_voxel; v < from.first_voxel + count; ++v) {
             const Coverage& c = block.coverage[v];
@@ -116,74 +112,9 @@ void VolumeLevel::append(const VoxelBlock& block,
     append_to(correlation_, block.correlation);
 }
 
-/// Orders leaves by tile, and within a tile by the bits of its mask.
-void VolumeLevel::sort_leaves(std::vector<Vec3i>& origins) {
-    std::vector<std::uint32_t> order(leaves_.size());
-    std::iota(order.begin(), order.end(), 0u);
-    const auto key = [&](std::uint32_t i) {
-        const Vec3i o = origins[i];
-        return std::array<std::int32_t, 6>{o.x >> 6,     o.y >> 6,     o.z >> 6,
-                                           o.x >> 3 & 7, o.y >> 3 & 7, o.z >> 3 & 7};
-    };
-    std::sort(order.begin(), order.end(),
-              [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
-    std::vector<VolumeLeaf> leaves(leaves_.size());
-    std::vector<Vec3i> sorted(leaves_.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        leaves[i] = leaves_[order[i]];
-        sorted[i] = origins[order[i]];
-    }
-    leaves_ = std::move(leaves);
-    origins = std::move(sorted);
-}
-
-void VolumeLevel::grow_bounds(Vec3i origin, const VolumeLeaf& leaf) {
-    std::uint64_t any = 0; // bit y * 8 + z
-    for (std::int32_t x = 0; x < 8; ++x) {
-        const std::uint64_t word = leaf.active[static_cast<std::size_t>(x)];
-        if (word == 0) continue;
-        lo_.x = std::min(lo_.x, origin.x + x);
-        hi_.x = std::max(hi_.x, origin.x + x + 1);
-        any |= word;
-    }
-    for (std::int32_t bit = 0; bit < 64; ++bit) {
-        if ((any >> bit & 1) == 0) continue;
-        lo_.y = std::min(lo_.y, origin.y + (bit >> 3));
-        hi_.y = std::max(hi_.y, origin.y + (bit >> 3) + 1);
-        lo_.z = std::min(lo_.z, origin.z + (bit & 7));
-        hi_.z = std::max(hi_.z, origin.z + (bit & 7) + 1);
-    }
-}
-
-void VolumeLevel::build_tiles(const std::vector<Vec3i>& origins) {
-    lo_ = {INT32_MAX, INT32_MAX, INT32_MAX};
-    hi_ = {INT32_MIN, INT32_MIN, INT32_MIN};
-    for (std::size_t i = 0; i < origins.size(); ++i) {
-        const Vec3i o = origins[i];
-        grow_bounds(o, leaves_[i]);
-        const Vec3i t{o.x >> 6, o.y >> 6, o.z >> 6};
-        if (tiles_.empty() || !(tiles_.back().origin == t)) {
-            tiles_.push_back({t, static_cast<std::uint32_t>(i), {}, {}});
-        }
-        Tile& tile = tiles_.back();
-        tile.active[static_cast<std::size_t>(o.x >> 3 & 7)] |=
-            std::uint64_t{1} << ((o.y >> 3 & 7) * 8 + (o.z >> 3 & 7));
-    }
-    if (origins.empty()) lo_ = hi_ = {};
-    slots_.assign(std::bit_ceil(2 * tiles_.size() + 1), kNone);
-    const std::size_t mask = slots_.size() - 1;
-    for (std::size_t n = 0; n < tiles_.size(); ++n) {
-        count_before(tiles_[n].active, tiles_[n].before);
-        std::size_t i = hash(tiles_[n].origin) & mask;
-        while (slots_[i] != kNone) i = (i + 1) & mask;
-        slots_[i] = static_cast<std::uint32_t>(n);
-    }
-}
-
 std::int64_t VolumeLevel::byte_count() const {
-    return bytes_of(slots_) + bytes_of(tiles_) + bytes_of(leaves_) + bytes_of(voxels_) +
-           bytes_of(lobes_) + bytes_of(maps_) + bytes_of(tangents_) + bytes_of(footprints_) +
-           bytes_of(correlation_);
+    return table_.byte_count() + bytes_of(leaves_) + bytes_of(voxels_) + bytes_of(lobes_) +
+           bytes_of(maps_) + bytes_of(tangents_) + bytes_of(footprints_) + bytes_of(correlation_);
 }
 
 } // namespace heddle

@@ -1,12 +1,15 @@
 #include <heddle/viewer/volume/measure_voxels.h>
 
+#include <heddle/preview/scene.h>
+#include <heddle/voxel/index_box.h>
+
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <span>
 
 namespace heddle::viewer {
 namespace {
+
+using Table = preview::Scene::Table;
 
 void sort_unique(std::vector<Vec3i>& at) {
     std::sort(at.begin(), at.end(), [](const Vec3i& a, const Vec3i& b) {
@@ -21,23 +24,14 @@ Vec3i shifted(Vec3i v, int by) {
 
 /// Grows `to` by the voxels of a leaf.
 void grow(Bounds& to, const VoxelLeaf& leaf, Vec3d h) {
-    std::array<std::uint32_t, 3> seen{}; // layers by axis, one bit each
-    for (std::uint32_t x = 0; x < 8; ++x) {
-        for (std::uint32_t y = 0; y < 8; ++y) {
-            const auto row = static_cast<std::uint32_t>(leaf.active[x] >> (8 * y) & 255);
-            seen[0] |= (row != 0 ? 1u : 0u) << x;
-            seen[1] |= (row != 0 ? 1u : 0u) << y;
-            seen[2] |= row;
-        }
-    }
-    Vec3d lo, hi;
+    const IndexBox box = box_of(leaf);
+    if (box.empty()) return;
+    Bounds of_leaf;
     for (int a = 0; a < 3; ++a) {
-        const std::uint32_t bits = seen[static_cast<std::size_t>(a)];
-        if (bits == 0) return;
-        lo[a] = (leaf.origin[a] + std::countr_zero(bits)) * h[a];
-        hi[a] = (leaf.origin[a] + static_cast<int>(std::bit_width(bits))) * h[a];
+        of_leaf.lo[a] = box.lo[a] * h[a];
+        of_leaf.hi[a] = (box.hi[a] + 1) * h[a];
     }
-    to.grow(Bounds{lo, hi});
+    to.grow(of_leaf);
 }
 
 void push_new(std::vector<Vec3i>& to, Vec3i at) {
@@ -80,7 +74,7 @@ VoxelMeasure measure_voxels(const VoxelSource& source, Progress& progress) {
             out.bytes.leaves += static_cast<std::int64_t>(4 * kLeafWords);
             out.bytes.voxels += 4 * static_cast<std::int64_t>(leaf.voxel_count());
             grow(out.bounds, leaf, source.info().lattice.voxel_size);
-            push_new(out.cells, shifted(leaf.origin, kCellShift));
+            push_new(out.cells, shifted(leaf.origin, Table::kTileShift));
             push_new(out.blocks, shifted(leaf.origin, kBlockShift));
         }
         progress.advance(1);
@@ -88,7 +82,7 @@ VoxelMeasure measure_voxels(const VoxelSource& source, Progress& progress) {
     sort_unique(out.cells);
     sort_unique(out.blocks);
     out.bytes.cells = box_bytes(out.cells);
-    out.bytes.leaf_table = static_cast<std::int64_t>(4 * kCellLeaves * out.cells.size());
+    out.bytes.leaf_table = static_cast<std::int64_t>(4 * Table::kTileLeaves * out.cells.size());
     return out;
 }
 

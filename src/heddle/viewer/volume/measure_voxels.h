@@ -10,10 +10,9 @@
 
 namespace heddle::viewer {
 
-inline constexpr int kBlockShift = 5; ///< a block is a cube of 32^3 of the finest voxels
-inline constexpr int kCellShift = 7;  ///< a cell of 16^3 leaves: 128 voxels along an axis
-inline constexpr std::size_t kCellLeaves = 4096; ///< leaves per cell
-inline constexpr std::size_t kLeafWords = 21;    ///< active: 16, before: 4, first voxel: 1
+inline constexpr int kMostVoxelLevels = 24;   ///< as many as shaders have room for
+inline constexpr int kBlockShift = 5;         ///< a block is a cell of 32^3 of the finest voxels
+inline constexpr std::size_t kLeafWords = 21; ///< active: 16, before: 4, first voxel: 1
 
 /// The memory of a level on the driver, by storage block.
 struct VoxelTableBytes {

@@ -32,8 +32,8 @@ make_voxels(const std::vector<Vec3i>& at, double c, Vec3f direction = {1.0f, 0.0
         voxels[{i.x, i.y, i.z}] = {{u, u, u, u}, {{heddle::testing::needle(direction), 255, 0}}};
     }
     VoxelGrid grid;
-    grid.about.materials.resize(1);
-    grid.about.materials[0].kind = MaterialKind::Fiber;
+    grid.info().materials.resize(1);
+    grid.info().materials[0].kind = MaterialKind::Fiber;
     grid.blocks = heddle::testing::make_blocks(voxels);
     heddle::testing::count_voxels(grid);
     return grid;

@@ -59,7 +59,7 @@ TEST(VoxelLevels, LevelsChangeAlongARayWithItsWidth) {
     const double depth = 2.0 * double{preview::kMaxDepth} / 255.0;
     const VoxelGrid fine = make_voxels(box({0, 0, 0}, {8, 8, 64}), -std::expm1(-depth));
     VoxelGrid coarse = make_voxels(box({0, 0, 0}, {4, 4, 32}), -std::expm1(-2.0 * depth));
-    coarse.about.lattice = lattice_of_level(fine.about.lattice, 1);
+    coarse.info().lattice = lattice_of_level(fine.info().lattice, 1);
     const VoxelView view(context, Sources{&fine, &coarse}, {}, progress);
     VoxelLook look = at_eye(VoxelColor::Level);
     look.level = -1;
@@ -114,7 +114,7 @@ TEST(VoxelLevels, VoxelAtGivesOtherShadersWhatTheGridHolds) {
     const opengl::Context context;
     Progress progress;
     VoxelGrid grid = make_voxels({{-5, 3, 200}}, 0.5, {0.6f, 0.0f, 0.8f});
-    grid.about.lattice.voxel_size = {0.5, 1.0, 0.25};
+    grid.info().lattice.voxel_size = {0.5, 1.0, 0.25};
     const VoxelView view(context, Sources{&grid}, {}, progress);
     constexpr std::string_view kAsk = R"(
 layout(std430, binding = 0) readonly buffer Places { vec4 places[]; };

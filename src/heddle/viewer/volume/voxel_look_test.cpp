@@ -45,7 +45,7 @@ TEST(VoxelLook, ASurfaceSeenFromItsDarkSideIsDarkWhereThereAreShadows) {
     const opengl::Context context;
     Progress progress;
     VoxelGrid sheet = make_voxels(box({0, 0, 0}, {16, 16, 1}), 1.0, {0.0f, 0.0f, 1.0f});
-    sheet.about.materials[0].kind = MaterialKind::Surface;
+    sheet.info().materials[0].kind = MaterialKind::Surface;
     const VoxelView view(context, Sources{&sheet}, {}, progress);
     const CameraView camera = around(view, {0.0, 0.0, 1.0}, 0.0);
     const auto green = [&](double z, bool shadows) {
@@ -140,7 +140,7 @@ TEST(VoxelLook, BlockAtFindsTheFirstBlockUnderAPixel) {
     const opengl::Context context;
     Progress progress;
     VoxelGrid grid = make_voxels({{1, 1, 1}, {-1, 1, 1}, {1, 1, 70}}, 1.0);
-    grid.about.lattice.voxel_size = {1.0, 0.5, 2.0};
+    grid.info().lattice.voxel_size = {1.0, 0.5, 2.0};
     const VoxelView view(context, Sources{&grid}, {}, progress);
     CameraView camera{.orthographic = true, .eye = {0.0, 8.0, 900.0}, .target = {0.0, 8.0, 0.0}};
     camera.view_height = 100.0;

@@ -1,6 +1,10 @@
 #pragma once
 
-#include <string_view>
+#include <heddle/preview/scene.h>
+#include <heddle/viewer/volume/glsl_constant.h>
+#include <heddle/viewer/volume/measure_voxels.h>
+
+#include <string>
 
 namespace heddle::viewer {
 
@@ -9,10 +13,16 @@ namespace heddle::viewer {
 /// stored is voxel_range.x, the coarsest voxel_range.y.
 ///
 /// `bool voxel_at(vec3 place, int level, out vec3 axis, out float density)`: whether there is a
-/// voxel at a point in scene units. `axis` is the direction of its heaviest lobe (a fiber's tangent
-/// or a surface's normal; unit, with arbitrary sign), `density` the mean of its coverage over the
-/// three axes, in [0, 127/128]. For a level that is not stored, the nearest one is used.
-inline constexpr std::string_view kVoxelTableGlsl = R"(
+/// voxel at a place in scene units; `axis` is the direction of its heaviest lobe (of a fiber's
+/// tangent or a surface's normal; unit, its sign means nothing), `density` the mean of its coverage
+/// over the three axes, in [0, 127/128]. Levels that are not there are taken for the nearest.
+inline const std::string kVoxelTableGlsl =
+    str("\n",
+        glsl_constant("kVoxelLevels", kMostVoxelLevels),
+        glsl_constant("kVoxelCellShift", preview::Scene::Table::kTileShift),
+        glsl_constant("kVoxelLeafWords", static_cast<int>(kLeafWords)),
+        glsl_constant("kVoxelMaxDepth", preview::kMaxDepth),
+        R"(
 struct VoxelLevel {
     vec4 per;     // voxels per scene unit; w: longest edge, scene units
     vec4 shift;   // voxel_middle from the table's corner, voxels; w: shortest edge, scene units
@@ -24,29 +34,29 @@ struct VoxelLevel {
 layout(std140, binding = 8) uniform VoxelLevels {
     vec4 voxel_middle; // scene units
     ivec4 voxel_range; // finest and coarsest level
-    VoxelLevel voxel_levels[24];
+    VoxelLevel voxel_levels[kVoxelLevels];
 };
 layout(std430, binding = 8) readonly buffer VoxelCells { int voxel_cells[]; }; // -1: empty
 layout(std430, binding = 9) readonly buffer VoxelLeafTable { uint voxel_leaf_table[]; }; // 0: none
-layout(std430, binding = 10) readonly buffer VoxelLeaves { uint voxel_leaves[]; }; // 21 words each
+layout(std430, binding = 10) readonly buffer VoxelLeaves { uint voxel_leaves[]; };
 layout(std430, binding = 11) readonly buffer VoxelDepths { uint voxel_depths[]; }; // and width
 layout(std430, binding = 12) readonly buffer VoxelColors { uint voxel_colors[]; }; // and axis x
 // axis y and z, material, flags
 layout(std430, binding = 13) readonly buffer VoxelAxes { uint voxel_axes[]; };
 
-const float kVoxelMaxDepth = 4.8520302; // preview::kMaxDepth
-
-// All indices are relative to the corner of the level's table.
+// All indices count from the corner of the level's table.
 int voxel_cell(int level, ivec3 cell) {
     ivec4 cells = voxel_levels[level].cells;
     if (any(lessThan(cell, ivec3(0))) || any(greaterThanEqual(cell, cells.xyz))) return -1;
     return voxel_cells[cells.w + (cell.x * cells.y + cell.y) * cells.z + cell.z];
 }
 
-// Index of the first word of a leaf; -1: empty.
+// Where its kVoxelLeafWords start in voxel_leaves; negative: empty.
 int voxel_leaf(int cell, ivec3 leaf) {
-    ivec3 i = leaf & 15;
-    return int(voxel_leaf_table[cell * 4096 + ((i.x << 8) | (i.y << 4) | i.z)]) * 21 - 21;
+    const int bits = kVoxelCellShift - 3;
+    ivec3 i = leaf & ((1 << bits) - 1);
+    int place = (((cell << bits | i.x) << bits | i.y) << bits) | i.z;
+    return (int(voxel_leaf_table[place]) - 1) * kVoxelLeafWords;
 }
 
 // Index of voxel `at` of a leaf; -1: empty.
@@ -63,7 +73,7 @@ int voxel_of_leaf(int leaf, ivec3 at) {
 // Index of the voxel at a point relative to voxel_middle, scene units; -1: empty.
 int voxel_at_offset(vec3 offset, int level) {
     ivec3 at = ivec3(floor(offset * voxel_levels[level].per.xyz + voxel_levels[level].shift.xyz));
-    int cell = voxel_cell(level, at >> 7);
+    int cell = voxel_cell(level, at >> kVoxelCellShift);
     int leaf = cell < 0 ? -1 : voxel_leaf(cell, at >> 3);
     return leaf < 0 ? -1 : voxel_of_leaf(leaf, at & 7);
 }
@@ -88,6 +98,6 @@ bool voxel_at(vec3 place, int level, out vec3 axis, out float density) {
     density = voxel_density(voxel_depth(voxel_depths[number]));
     return true;
 }
-)";
+)");
 
 } // namespace heddle::viewer

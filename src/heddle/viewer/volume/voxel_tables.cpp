@@ -2,6 +2,7 @@
 
 #include <heddle/base/error.h>
 #include <heddle/preview/scene.h>
+#include <heddle/voxel/index_box.h>
 
 #include <epoxy/gl.h>
 
@@ -15,15 +16,13 @@
 namespace heddle::viewer {
 namespace {
 
+using Table = preview::Scene::Table;
+
 constexpr std::uint32_t kFirstStorage = 8;
 constexpr std::uint32_t kLevelsUniform = 8;
 constexpr std::size_t kBatchWords = 1 << 18; ///< words that are written at once
 
-Vec3i shifted(Vec3i v, int by) {
-    return {v.x >> by, v.y >> by, v.z >> by};
-}
-
-/// How often the edges of a level double those of the finest.
+/// How often a level's edges double those of the finest.
 int doublings(Vec3d finest, Vec3d edges) {
     const int out = static_cast<int>(std::lround(std::log2(edges.x / finest.x)));
     for (int a = 0; a < 3; ++a) {
@@ -91,18 +90,38 @@ private:
     std::vector<std::uint32_t> batch_;
 };
 
-/// Writes tables in sequence; all numbers in them count from the first table.
+/// The tiles of a table, which shaders call cells, in the box that holds them all.
+struct CellBox {
+    Vec3i lo;                         ///< index of the first cell
+    Vec3i size;                       ///< cells
+    std::vector<std::uint32_t> tiles; ///< their numbers, z fastest; kNone where a cell is empty
+
+    explicit CellBox(const Table& table) {
+        IndexBox box;
+        for (const Vec3i& tile : table.tiles()) box.grow(tile);
+        lo = box.lo;
+        size = box.hi - box.lo + Vec3i{1, 1, 1};
+        const auto wide = [](std::int32_t n) { return static_cast<std::size_t>(n); };
+        tiles.assign(wide(size.x) * wide(size.y) * wide(size.z), Table::kNone);
+        for (std::uint32_t t = 0; t < table.tiles().size(); ++t) {
+            const Vec3i at = table.tiles()[t] - lo;
+            tiles[(wide(at.x) * wide(size.y) + wide(at.y)) * wide(size.z) + wide(at.z)] = t;
+        }
+    }
+};
+
+/// Writes tables one behind the other; all numbers in them count from the first.
 struct Writer {
     std::array<Words, 6> to; ///< cells, leaf table, leaves, words of voxels
 
-    void write(const preview::Scene& scene) {
-        const auto first_cell = static_cast<std::int32_t>(to[1].count() / kCellLeaves);
+    void write(const preview::Scene& scene, const CellBox& cells) {
+        const auto first_cell = static_cast<std::uint32_t>(to[1].count() / Table::kTileLeaves);
         const auto first_leaf = static_cast<std::uint32_t>(to[2].count() / kLeafWords);
-        for (const std::int32_t cell : scene.cell_table())
-            to[0].push(static_cast<std::uint32_t>(cell < 0 ? -1 : cell + first_cell));
-        for (const std::uint32_t leaf : scene.leaf_table())
-            to[1].push(leaf == 0 ? 0 : leaf + first_leaf);
-        std::vector<std::uint32_t> first; // first voxel of each block
+        for (const std::uint32_t tile : cells.tiles)
+            to[0].push(tile == Table::kNone ? tile : tile + first_cell);
+        for (const std::uint32_t leaf : scene.table().leaves_by_tile())
+            to[1].push(leaf == Table::kNone ? 0 : leaf + 1 + first_leaf);
+        std::vector<std::uint32_t> first; // voxel of each block
         std::uint32_t count = to[3].count();
         for (const std::vector<preview::Voxel>& block : scene.voxels_by_block()) {
             first.push_back(count);
@@ -117,12 +136,13 @@ struct Writer {
         for (std::size_t i = 0; i < 3; ++i) to[3 + i].push(words[i]);
     }
     void push(const preview::Leaf& leaf, std::uint32_t first) {
-        for (const std::uint64_t word : leaf.active) {
+        for (const std::uint64_t word : leaf.mask.active) {
             to[2].push(static_cast<std::uint32_t>(word));
             to[2].push(static_cast<std::uint32_t>(word >> 32));
         }
         for (std::size_t x = 0; x < 8; x += 2) {
-            to[2].push(leaf.before[x] | static_cast<std::uint32_t>(leaf.before[x + 1]) << 16);
+            to[2].push(leaf.mask.before[x] | static_cast<std::uint32_t>(leaf.mask.before[x + 1])
+                                                 << 16);
         }
         to[2].push(first);
     }
@@ -204,15 +224,16 @@ void VoxelTables::fill(std::span<const VoxelSource* const> levels, Progress& pro
     for (auto i = static_cast<std::size_t>(first_); i < levels.size(); ++i) {
         const preview::Scene scene(*levels[i], false, progress);
         if (scene.empty()) continue;
-        const Vec3i corner = scene.cell_lo() * (1 << kCellShift);
-        const Vec3i leaf = shifted(corner, 3);
-        const Vec3i lo = scene.lo() - leaf, hi = scene.hi() - leaf, cells = scene.cells();
+        const CellBox cells(scene.table());
+        const Vec3i corner = cells.lo * Table::kTileVoxels;
+        const Vec3i leaf{corner.x >> 3, corner.y >> 3, corner.z >> 3};
+        const Vec3i lo = scene.lo() - leaf, hi = scene.hi() - leaf;
         about[i].corner = {corner.x, corner.y, corner.z, 0};
-        about[i].cells = {cells.x, cells.y, cells.z,
+        about[i].cells = {cells.size.x, cells.size.y, cells.size.z,
                           static_cast<std::int32_t>(writer.to[0].count())};
         about[i].lo = {lo.x, lo.y, lo.z, 0};
         about[i].hi = {hi.x, hi.y, hi.z, 0};
-        writer.write(scene);
+        writer.write(scene, cells);
     }
     for (Words& to : writer.to) to.flush();
     for (std::size_t i = 0; i < levels.size(); ++i) { // all have edges, even those that do not fit

@@ -13,14 +13,13 @@
 
 namespace heddle::viewer {
 
-inline constexpr int kMostVoxelLevels = 24; ///< the number that shaders have room for
-
-/// Pointers to the levels, for functions that take levels of any origin.
+/// The levels by pointer, for what takes them from anywhere.
 [[nodiscard]] std::vector<const VoxelSource*> sources_of(const VoxelLevels& levels);
 
-/// All levels of a volume in the driver's memory, each like a preview::Scene: leaves are found by
-/// index in two tables; 12 bytes per voxel. kVoxelTableGlsl reads them. Needs a current Context
-/// while it lives.
+/// All levels of a volume in the driver's memory, each as preview::Scene has one: 12 bytes a voxel,
+/// and the tiles of the scene's LeafTable, by which kVoxelTableGlsl finds leaves. The tiles stand in
+/// a box of cells where a shader reads one word: in a hash table all lanes of a wave would wait for
+/// the one whose search takes longest. Needs a current Context while it lives.
 class VoxelTables {
 public:
     /// Predicts the bytes before any are allocated. If they exceed a storage block, the finest

@@ -91,7 +91,7 @@ TEST(VoxelView, VoxelsThatAreNotCubesAndNegativeIndicesAreAsThePreviewHasThem) {
     const VoxelLevels flat = knit(1, {0.03, 0.05, 0.08});
     EXPECT_LE(off_preview(*flat[0], PreviewColor::Albedo, 0.0)[0], 0.001);
     VoxelGrid negative = make_voxels(box({-300, -20, -140}, {30, 20, 10}), 0.4, {0.0f, 1.0f, 0.0f});
-    negative.about.lattice.voxel_size = {0.5, 0.25, 1.0};
+    negative.info().lattice.voxel_size = {0.5, 0.25, 1.0};
     const std::array<double, 2> share = off_preview(negative, PreviewColor::Albedo, 0.6);
     EXPECT_LE(share[0], 0.001);
     EXPECT_GT(share[1], 0.1);
@@ -219,7 +219,7 @@ TEST(VoxelView, WhatCannotBeShownIsOneLine) {
     };
     EXPECT_EQ(make({&grid, &grid}), ErrorCode::InvalidArgument);
     VoxelGrid odd = make_voxels({{0, 0, 0}}, 0.5);
-    odd.about.lattice.voxel_size = {2.0, 2.0, 3.0};
+    odd.info().lattice.voxel_size = {2.0, 2.0, 3.0};
     EXPECT_EQ(make({&grid, &odd}), ErrorCode::InvalidArgument);
     const VoxelView view(context, Sources{&grid}, {}, progress);
     const auto draw = [&](const CameraView& camera, const VoxelLook& look) {

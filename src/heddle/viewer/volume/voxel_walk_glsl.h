@@ -1,5 +1,9 @@
 #pragma once
 
+#include <heddle/preview/sheet.h>
+#include <heddle/viewer/volume/glsl_constant.h>
+
+#include <string>
 #include <string_view>
 
 namespace heddle::viewer {
@@ -38,20 +42,21 @@ float pixel_width(VoxelRay ray, float t) {
 /// the light that entered the scene, and at the end of each clump of voxels:
 ///     void meet(int number, int level, ivec3 at, float hidden, float t);
 ///     void leave_clump(int level);
-inline constexpr std::string_view kVoxelWalkGlsl = R"(
-uniform int level_first, level_last; // range of levels that are used
-uniform float level_reach;           // a level is used for pixels up to this many of its edges wide
-uniform vec3 box_lo, box_hi;         // of all voxels, relative to voxel_middle
+inline const std::string kVoxelWalkGlsl = str("\n",
+                                              glsl_constant("kOpaque", preview::kOpaque),
+                                              glsl_constant("kFlatWidth", preview::kFlatWidth),
+                                              glsl_constant("kClosing", preview::kClosing),
+                                              glsl_constant("kSheetGap", preview::kSheetGap),
+                                              R"(
+uniform int level_first, level_last; // that serve
+uniform float level_reach;           // a level serves pixels up to this many of its edges wide
+uniform vec3 box_lo, box_hi;         // of all voxels, from voxel_middle
 uniform float density_scale;
 uniform ivec3 white_block;
 
 void meet(int number, int level, ivec3 at, float hidden, float t);
 void leave_clump(int level);
 
-const float kOpaque = 0.004;  // rays end below this transmittance
-const float kFlatWidth = 96.0 / 255.0; // these three: as in preview.cpp
-const float kClosing = 1.5;
-const float kSheetGap = 0.5;
 const float kClumpGap = 4.0;   // voxels between two clumps
 const float kClumpMost = 16.0; // greatest length of a clump, voxels
 const float kNever = 1e30;
@@ -95,7 +100,7 @@ void cross_voxel(int number, int level, ivec3 at, float t, float leave) {
     float part;
     if (white == 1 && block_of(level, at) == white_block) {
         part = 1.0;
-    } else if ((flags & 8u) == 0u && float(depths >> 24) / 255.0 < kFlatWidth) {
+    } else if ((flags & 8u) == 0u && int(depths >> 24) < kFlatWidth) {
         part = hidden_by_sheet(k, flags, t, leave);
     } else {
         part = 1.0 - exp(-length(k * weight) * (leave - t));
@@ -148,10 +153,10 @@ Walk start_level(int level, float t, inout float t_end) {
 Found step_on(inout Walk w, int level, float t_end) {
     if (any(notEqual(w.at >> 3, w.known))) {
         w.known = w.at >> 3;
-        w.cell = voxel_cell(level, w.at >> 7);
+        w.cell = voxel_cell(level, w.at >> kVoxelCellShift);
         w.leaf = w.cell < 0 ? -1 : voxel_leaf(w.cell, w.known);
     }
-    int size = w.cell < 0 ? 7 : w.leaf < 0 ? 3 : 0; // log2 of the cube's edge
+    int size = w.cell < 0 ? kVoxelCellShift : w.leaf < 0 ? 3 : 0; // log2 of the cube's edge
     ivec3 first = (w.at >> size) << size;
     ivec3 last = first + ((1 << size) - 1);
     bvec3 rises = greaterThan(weight, vec3(0.0));
@@ -220,6 +225,6 @@ void walk_ray(float t_end) {
         t = until;
     }
 }
-)";
+)");
 
 } // namespace heddle::viewer

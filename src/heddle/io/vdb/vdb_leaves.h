@@ -1,6 +1,7 @@
 #pragma once
 
 #include <heddle/base/progress.h>
+#include <heddle/voxel/index_box.h>
 #include <heddle/voxel/voxel_grid.h>
 
 #include <array>
@@ -21,10 +22,9 @@ struct LeafRef {
 
 /// All leaves of a source in the order of a VDB tree with 5, 4, 3 bits, and the counts that a
 /// writer needs before it starts.
-struct LeafTable {
+struct VdbLeaves {
     std::vector<LeafRef> leaves;
-    Vec3i lo; ///< first active index
-    Vec3i hi; ///< last active index, inclusive; both meaningless without voxels
+    IndexBox box; ///< of the active voxels
     std::int64_t voxel_count = 0;
     std::int64_t lobe_count = 0;
     std::int32_t most_lobes = 0;      ///< the largest number of any voxel
@@ -53,6 +53,6 @@ struct LeafTable {
 /// Visits the source once, on all threads.
 /// @throws Error  Internal: two blocks have the same leaf, an array does not have the length that
 ///                its block's fields say, or only some voxels have a merge order; Cancelled
-[[nodiscard]] LeafTable make_leaf_table(const VoxelSource& source, const Progress& progress);
+[[nodiscard]] VdbLeaves list_vdb_leaves(const VoxelSource& source, const Progress& progress);
 
 } // namespace heddle

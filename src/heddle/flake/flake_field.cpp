@@ -1,12 +1,12 @@
-#include <heddle/voxel/flake_field.h>
+#include <heddle/flake/flake_field.h>
 
 #include <heddle/sggx/moments.h>
 #include <heddle/sggx/pack.h>
+#include <heddle/voxel/index_box.h>
+#include <heddle/voxel/leaf_voxels.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <limits>
 
 namespace heddle {
 namespace {
@@ -133,13 +133,6 @@ void FlakeField::Draft::grow(std::uint8_t pass) {
     }
 }
 
-std::uint64_t FlakeField::key_of(Vec3i origin) {
-    const auto part = [](std::int32_t v) {
-        return static_cast<std::uint64_t>((v >> 3) + (1 << 20)) & 0x1fffffu;
-    };
-    return part(origin.x) << 42 | part(origin.y) << 21 | part(origin.z);
-}
-
 FlakeField::FlakeField(const VoxelSource& source, std::span<const Vec3f> albedo)
     : voxel_size_(source.info().lattice.voxel_size) {
     const auto voxels = static_cast<std::size_t>(source.info().voxel_count);
@@ -147,69 +140,53 @@ FlakeField::FlakeField(const VoxelSource& source, std::span<const Vec3f> albedo)
     S_.reserve(voxels);
     if (!albedo.empty()) one_albedo_ = albedo.front();
     if (albedo.size() > 1 || source.info().fields.albedo) albedo_.reserve(voxels);
-    constexpr std::int32_t kMost = std::numeric_limits<std::int32_t>::max();
-    lo_ = {kMost, kMost, kMost};
-    hi_ = {-kMost, -kMost, -kMost};
+    IndexBox box;
     VoxelBlock scratch;
     for (std::size_t b = 0; b < source.block_count(); ++b) {
-        add_block(source.info(), source.block(b, scratch), albedo);
+        const VoxelBlock& block = source.block(b, scratch);
+        for (const VoxelLeaf& leaf : block.leaves) {
+            box.grow(box_of(leaf));
+            table_.add(leaf.origin);
+            leaves_.push_back({leaf.active, sigma_t_.size()});
+            origins_.push_back(leaf.origin);
+            for_each_voxel(block, leaf, [&](const BlockVoxel& voxel) {
+                add_voxel(source.info(), voxel, albedo);
+            });
+        }
     }
-    if (leaves_.empty()) lo_ = hi_ = {};
-    place_.reserve(leaves_.size());
-    for (std::size_t i = 0; i < leaves_.size(); ++i) {
-        place_.emplace(key_of(origins_[i]), static_cast<std::uint32_t>(i));
+    if (!box.empty()) {
+        lo_ = box.lo;
+        hi_ = box.hi + Vec3i{1, 1, 1};
     }
     drop_equal_albedo();
 }
 
-void FlakeField::add_block(const VoxelGridInfo& info,
-                           const VoxelBlock& block,
+void FlakeField::add_voxel(const VoxelGridInfo& info,
+                           const BlockVoxel& voxel,
                            std::span<const Vec3f> albedo) {
     const bool colors = albedo_.capacity() > 0;
-    for (const VoxelLeaf& leaf : block.leaves) {
-        leaves_.push_back({leaf.active, sigma_t_.size()});
-        origins_.push_back(leaf.origin);
-        grow_bounds(leaf);
-        std::size_t lobe = leaf.first_lobe;
-        for (std::size_t v = leaf.first_voxel; v < leaf.first_voxel + leaf.voxel_count(); ++v) {
-            SymmetricMatrix M{};
-            Vec3f color{};
-            float weight = 0.0f;
-            for (std::size_t end = lobe + block.lobe_count[v]; lobe < end; ++lobe) {
-                const Lobe& l = block.lobes[lobe];
-                const auto w = static_cast<float>(l.weight);
-                add(M, normal_moment(unpack(l.sggx), info.materials[l.material].kind), w);
-                weight += w;
-                if (!colors) continue;
-                Vec3f c = albedo[l.material];
-                if (!block.maps.empty()) c = c * color_of(block.maps[lobe].albedo);
-                color = color + c * w;
-            }
-            const SggxMatrix S = scale_flake(fit_sggx(M));
-            const float seen = (std::sqrt(S.xx) + std::sqrt(S.yy) + std::sqrt(S.zz)) / 3.0f;
-            sigma_t_.push_back(mean_extinction(block.coverage[v], info.lattice) / seen);
-            S_.push_back(pack_flake(S));
-            if (!colors) continue;
-            const auto byte = [&](float x) {
-                return static_cast<std::uint8_t>(std::lrintf(255.0f * x / weight));
-            };
-            albedo_.push_back({byte(color.x), byte(color.y), byte(color.z)});
-        }
+    SymmetricMatrix M{};
+    Vec3f color{};
+    float weight = 0.0f;
+    for (std::size_t i = 0; i < voxel.lobe_count(); ++i) {
+        const Lobe& l = voxel.lobes()[i];
+        const auto w = static_cast<float>(l.weight);
+        add(M, normal_moment(unpack(l.sggx), info.materials[l.material].kind), w);
+        weight += w;
+        if (!colors) continue;
+        Vec3f c = albedo[l.material];
+        if (!voxel.maps().empty()) c = c * color_of(voxel.maps()[i].albedo);
+        color = color + c * w;
     }
-}
-
-void FlakeField::grow_bounds(const VoxelLeaf& leaf) {
-    for (std::int32_t x = 0; x < 8; ++x) {
-        for (std::uint64_t word = leaf.active[static_cast<std::size_t>(x)]; word != 0;) {
-            const int bit = std::countr_zero(word);
-            word &= word - 1;
-            const Vec3i p = leaf.origin + Vec3i{x, bit >> 3, bit & 7};
-            for (int a = 0; a < 3; ++a) {
-                lo_[a] = std::min(lo_[a], p[a]);
-                hi_[a] = std::max(hi_[a], p[a] + 1);
-            }
-        }
-    }
+    const SggxMatrix S = scale_flake(fit_sggx(M));
+    const float seen = (std::sqrt(S.xx) + std::sqrt(S.yy) + std::sqrt(S.zz)) / 3.0f;
+    sigma_t_.push_back(mean_extinction(voxel.coverage(), info.lattice) / seen);
+    S_.push_back(pack_flake(S));
+    if (!colors) return;
+    const auto byte = [&](float x) {
+        return static_cast<std::uint8_t>(std::lrintf(255.0f * x / weight));
+    };
+    albedo_.push_back({byte(color.x), byte(color.y), byte(color.z)});
 }
 
 void FlakeField::drop_equal_albedo() {
@@ -223,7 +200,7 @@ void FlakeField::drop_equal_albedo() {
 
 /// Calls visit(number, index) for the voxels of a box.
 template <typename Visit>
-void FlakeField::for_each_voxel(Vec3i low, Vec3i size, const Visit& visit) const {
+void FlakeField::for_each_in_box(Vec3i low, Vec3i size, const Visit& visit) const {
     const Vec3i end = low + size;
     const auto inside = [&](Vec3i p) {
         return p.x >= low.x && p.y >= low.y && p.z >= low.z && p.x < end.x && p.y < end.y &&
@@ -231,20 +208,17 @@ void FlakeField::for_each_voxel(Vec3i low, Vec3i size, const Visit& visit) const
     };
     const auto visit_leaf = [&](const Leaf& leaf, Vec3i origin) {
         std::size_t v = leaf.first;
-        for (std::int32_t x = 0; x < 8; ++x) {
-            for (std::uint64_t word = leaf.active[static_cast<std::size_t>(x)]; word != 0; ++v) {
-                const int bit = std::countr_zero(word);
-                word &= word - 1;
-                const Vec3i p = origin + Vec3i{x, bit >> 3, bit & 7};
-                if (inside(p)) visit(v, p);
-            }
-        }
+        for_each_active(leaf.active, [&](std::size_t x, int bit) {
+            const Vec3i p = voxel_index(origin, x, bit);
+            if (inside(p)) visit(v, p);
+            ++v;
+        });
     };
     for (std::int32_t x = low.x & ~7; x < end.x; x += 8) {
         for (std::int32_t y = low.y & ~7; y < end.y; y += 8) {
             for (std::int32_t z = low.z & ~7; z < end.z; z += 8) {
-                const auto at = place_.find(key_of({x, y, z}));
-                if (at != place_.end()) visit_leaf(leaves_[at->second], {x, y, z});
+                const std::uint32_t leaf = table_.find({x, y, z}).leaf;
+                if (leaf != LeafTable<3>::kNone) visit_leaf(leaves_[leaf], {x, y, z});
             }
         }
     }
@@ -252,14 +226,14 @@ void FlakeField::for_each_voxel(Vec3i low, Vec3i size, const Visit& visit) const
 
 bool FlakeField::any(Vec3i low, Vec3i size) const {
     bool found = false;
-    for_each_voxel(low, size, [&](std::size_t v, Vec3i) { found = found || sigma_t_[v] > 0.0f; });
+    for_each_in_box(low, size, [&](std::size_t v, Vec3i) { found = found || sigma_t_[v] > 0.0f; });
     return found;
 }
 
 void FlakeField::fill(Vec3i low, Vec3i size, FlakeBlock& out) const {
     Draft draft(low, size, one_albedo_);
     bool any = false;
-    for_each_voxel(draft.low, draft.size, [&](std::size_t v, Vec3i p) {
+    for_each_in_box(draft.low, draft.size, [&](std::size_t v, Vec3i p) {
         const std::size_t i = draft.place(p - draft.low);
         draft.sigma_t[i] = sigma_t_[v];
         draft.S[i] = unpack_flake(S_[v]);

@@ -1,12 +1,12 @@
 #pragma once
 
+#include <heddle/leaf_table/leaf_table.h>
 #include <heddle/sggx/sggx.h>
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/leaf_voxels.h>
 
 #include <array>
 #include <cstdint>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 namespace heddle {
@@ -70,19 +70,17 @@ private:
     };
     struct Draft;
     void
-    add_block(const VoxelGridInfo& info, const VoxelBlock& block, std::span<const Vec3f> albedo);
-    void grow_bounds(const VoxelLeaf& leaf);
+    add_voxel(const VoxelGridInfo& info, const BlockVoxel& voxel, std::span<const Vec3f> albedo);
     void drop_equal_albedo();
     template <typename Visit>
-    void for_each_voxel(Vec3i low, Vec3i size, const Visit& visit) const;
-    [[nodiscard]] static std::uint64_t key_of(Vec3i origin);
+    void for_each_in_box(Vec3i low, Vec3i size, const Visit& visit) const;
 
     Vec3d voxel_size_{};
     Vec3i lo_{}, hi_{};
     Vec3f one_albedo_{0.8f, 0.8f, 0.8f};
-    std::vector<Leaf> leaves_;
+    LeafTable<3> table_;
+    std::vector<Leaf> leaves_; ///< by the table's numbers
     std::vector<Vec3i> origins_;
-    std::unordered_map<std::uint64_t, std::uint32_t> place_; ///< of a leaf by its origin
     std::vector<float> sigma_t_;
     std::vector<PackedFlake> S_;
     std::vector<std::array<std::uint8_t, 3>> albedo_;

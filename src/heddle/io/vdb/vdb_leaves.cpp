@@ -1,49 +1,15 @@
+#include <heddle/io/vdb/vdb_leaves.h>
+
 #include <heddle/base/error.h>
 #include <heddle/base/parallel.h>
-#include <heddle/io/vdb/leaf_table.h>
 #include <heddle/io/vdb/level_grids.h>
+#include <heddle/voxel/index_box.h>
 
 #include <algorithm>
-#include <bit>
-#include <limits>
 #include <tuple>
 
 namespace heddle {
 namespace {
-
-LeafTable empty_table() {
-    LeafTable table;
-    constexpr std::int32_t kMax = std::numeric_limits<std::int32_t>::max();
-    table.lo = {kMax, kMax, kMax};
-    table.hi = {-kMax, -kMax, -kMax};
-    return table;
-}
-
-void grow(LeafTable& table, Vec3i lo, Vec3i hi) {
-    for (int a = 0; a < 3; ++a) {
-        table.lo[a] = std::min(table.lo[a], lo[a]);
-        table.hi[a] = std::max(table.hi[a], hi[a]);
-    }
-}
-
-void grow(LeafTable& table, const VoxelLeaf& leaf) {
-    std::uint64_t any = 0;
-    for (int x = 0; x < 8; ++x) {
-        const std::uint64_t w = leaf.active[static_cast<std::size_t>(x)];
-        any |= w;
-        if (w == 0) continue;
-        table.lo.x = std::min(table.lo.x, leaf.origin.x + x);
-        table.hi.x = std::max(table.hi.x, leaf.origin.x + x);
-    }
-    for (int y = 0; y < 8; ++y) {
-        const std::uint64_t row = (any >> (8 * y)) & 0xff;
-        if (row == 0) continue;
-        const int z_lo = std::countr_zero(row);
-        const int z_hi = 63 - std::countl_zero(row);
-        grow(table, {table.lo.x, leaf.origin.y + y, leaf.origin.z + z_lo},
-             {table.hi.x, leaf.origin.y + y, leaf.origin.z + z_hi});
-    }
-}
 
 [[noreturn]] void fail(const char* what) {
     throw Error(ErrorCode::Internal, str("write vdb: ", what));
@@ -67,7 +33,7 @@ void check_arrays(const VoxelBlock& block, const VoxelGridInfo& info) {
     if (!whole) fail("a block's arrays are not as long as its fields say");
 }
 
-void add_leaf(LeafTable& table,
+void add_leaf(VdbLeaves& found,
               const VoxelBlock& block,
               const VoxelLeaf& leaf,
               const std::vector<Material>& materials) {
@@ -80,19 +46,19 @@ void add_leaf(LeafTable& table,
             fail("a voxel without lobe or material");
         }
         const bool fiber = materials[block.lobes[l].material].kind == MaterialKind::Fiber;
-        ++(fiber ? table.fiber_voxels : table.surface_voxels);
-        table.most_lobes = std::max<std::int32_t>(table.most_lobes, n);
-        if (n > 2) ++(block.merge_order.empty() ? table.unmerged_voxels : table.merge_voxels);
-        table.lobe_count += n;
+        ++(fiber ? found.fiber_voxels : found.surface_voxels);
+        found.most_lobes = std::max<std::int32_t>(found.most_lobes, n);
+        if (n > 2) ++(block.merge_order.empty() ? found.unmerged_voxels : found.merge_voxels);
+        found.lobe_count += n;
         l += n;
     }
-    table.voxel_count += static_cast<std::int64_t>(end - leaf.first_voxel);
-    grow(table, leaf);
+    found.voxel_count += static_cast<std::int64_t>(end - leaf.first_voxel);
+    found.box.grow(box_of(leaf));
 }
 
-LeafTable combine(LeafTable a, const LeafTable& b) {
+VdbLeaves combine(VdbLeaves a, const VdbLeaves& b) {
     a.leaves.insert(a.leaves.end(), b.leaves.begin(), b.leaves.end());
-    grow(a, b.lo, b.hi);
+    a.box.grow(b.box);
     a.voxel_count += b.voxel_count;
     a.lobe_count += b.lobe_count;
     a.most_lobes = std::max(a.most_lobes, b.most_lobes);
@@ -111,10 +77,10 @@ auto tree_order(const LeafRef& ref) {
 
 } // namespace
 
-LeafTable make_leaf_table(const VoxelSource& source, const Progress& progress) {
+VdbLeaves list_vdb_leaves(const VoxelSource& source, const Progress& progress) {
     const VoxelGridInfo& info = source.info();
     const auto walk = [&](std::size_t begin, std::size_t end) {
-        LeafTable part = empty_table();
+        VdbLeaves part;
         VoxelBlock scratch;
         for (std::size_t b = begin; b < end; ++b) {
             progress.check();
@@ -130,18 +96,18 @@ LeafTable make_leaf_table(const VoxelSource& source, const Progress& progress) {
         }
         return part;
     };
-    LeafTable table = reduce_chunks(source.block_count(), 16, empty_table(), walk, combine);
-    std::sort(table.leaves.begin(), table.leaves.end(),
+    VdbLeaves found = reduce_chunks(source.block_count(), 16, VdbLeaves{}, walk, combine);
+    std::sort(found.leaves.begin(), found.leaves.end(),
               [](const LeafRef& a, const LeafRef& b) { return tree_order(a) < tree_order(b); });
-    for (std::size_t i = 1; i < table.leaves.size(); ++i) {
-        if (table.leaves[i].origin == table.leaves[i - 1].origin) {
+    for (std::size_t i = 1; i < found.leaves.size(); ++i) {
+        if (found.leaves[i].origin == found.leaves[i - 1].origin) {
             fail("two blocks hold the same leaf");
         }
     }
-    if (table.merge_voxels > 0 && table.unmerged_voxels > 0) {
+    if (found.merge_voxels > 0 && found.unmerged_voxels > 0) {
         fail("some voxels of more than two lobes have a merge order, others have none");
     }
-    return table;
+    return found;
 }
 
 } // namespace heddle
