@@ -66,7 +66,7 @@ DirectionSums sums_of(const Lobe& lobe, const Coverage& coverage, bool normals) 
 }
 
 Finest load(const std::string& path) {
-    const std::unique_ptr<VoxelGrid> grid = read_vdb(path);
+    const std::unique_ptr<MemoryLevel> grid = read_vdb(path);
     std::vector<std::pair<std::uint64_t, std::vector<DirectionSums>>> voxels;
     for_each_voxel(*grid, [&](const BlockVoxel& v) {
         std::vector<DirectionSums> lobes;

@@ -27,7 +27,7 @@ namespace {
 /// Free flights by null collisions.                                      [Woodcock 1965]
 class DeltaTracker {
 public:
-    explicit DeltaTracker(const VolumeLevel& level)
+    explicit DeltaTracker(const TraversalLevel& level)
         : level_(level), majorants_(static_cast<std::size_t>(level.info().voxel_count)) {}
 
     /// @return  whether something stops the ray between t0 and t1
@@ -39,7 +39,7 @@ public:
         Vec3i at{};
         for (float t = 0.0f; t < end;) {
             const Vec3i index = ray.base + at;
-            const VolumeLevel::Place place = level_.find_leaf(index);
+            const TraversalLevel::LeafLookup place = level_.find_leaf(index);
             const std::int32_t mask = ~(place.size - 1);
             const Vec3i low = Vec3i{index.x & mask, index.y & mask, index.z & mask} - ray.base;
             const detail::Exit exit = detail::find_exit(ray, low, place.size);
@@ -71,7 +71,7 @@ private:
         }
         return out;
     }
-    Vec3f majorant_of(const VolumeLeaf& leaf) {
+    Vec3f majorant_of(const TraversalLeaf& leaf) {
         Vec3f& most = majorants_[leaf.first_voxel];
         if (most.x == 0.0f) {
             for (int i = 0; i < 512; ++i) {
@@ -83,7 +83,7 @@ private:
         }
         return most;
     }
-    const VolumeLevel& level_;
+    const TraversalLevel& level_;
     std::vector<Vec3f> majorants_; ///< of a brick's voxels along each axis, by its first voxel
 };
 
@@ -93,7 +93,7 @@ struct LevelRays {
 };
 
 /// Rays through the object's box: from a point on a sphere about it to a point in it.
-LevelRays make_rays(const VolumeLevel& level, std::size_t count) {
+LevelRays make_rays(const TraversalLevel& level, std::size_t count) {
     const Vec3d h = level.info().lattice.voxel_size;
     const auto corner = [&](Vec3i i) {
         return Vec3d{static_cast<double>(i.x), static_cast<double>(i.y), static_cast<double>(i.z)};
@@ -140,13 +140,13 @@ void run(const std::string& path, std::size_t count) {
     std::printf("| level | ns a flight, walked | null collisions | times | pass, walked | null |\n"
                 "|---|---|---|---|---|---|\n");
     for (const auto& grid : levels) {
-        const VolumeLevel level(*grid);
+        const TraversalLevel level(*grid);
         const LevelRays rays = make_rays(level, count);
         const auto walk = [&](const VoxelRay& ray, const RayRange& range, StreamRandom& random) {
             RayPassage passage(true, random);
             ProductLaw law(level, ray, passage);
-            walk_voxels(level, ray, range.t0, range.t1,
-                        [&](const VoxelStep& step) { return law.pass(step); });
+            traverse_voxels(level, ray, range.t0, range.t1,
+                            [&](const VoxelStep& step) { return law.pass(step); });
             return passage.stopped();
         };
         DeltaTracker tracker(level);

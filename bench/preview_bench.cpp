@@ -17,8 +17,8 @@ namespace {
 
 void run(int argc, char** argv) {
     const std::string what = argc > 1 ? argv[1] : "helix";
-    const VoxelGrid grid = what == "helix" ? testing::make_helix()
-                                           : testing::make_cloth(std::atof(what.c_str()) * 1e6);
+    const MemoryLevel grid = what == "helix" ? testing::make_helix()
+                                             : testing::make_cloth(std::atof(what.c_str()) * 1e6);
     PreviewOptions options;
     if (argc > 3) options.color = static_cast<PreviewColor>(std::atoi(argv[3]));
     if (argc > 6) options.from = Vec3d{std::atof(argv[4]), std::atof(argv[5]), std::atof(argv[6])};

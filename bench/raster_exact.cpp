@@ -18,8 +18,8 @@ void print_row(const std::string& name, const Geometry& geometry, double voxel_s
     options.keep_sums = true;
     const VoxelizePlan plan = plan_voxelize(geometry, options);
     Progress silent;
-    const std::unique_ptr<VoxelSource> sampled = voxelize(geometry, options, plan, silent);
-    const std::unique_ptr<VoxelSource> drawn = voxelize_slices(geometry, options, {}, plan, silent);
+    const std::unique_ptr<VoxelLevel> sampled = voxelize(geometry, options, plan, silent);
+    const std::unique_ptr<VoxelLevel> drawn = voxelize_slices(geometry, options, {}, plan, silent);
     const Difference d = compare(*sampled, *drawn);
     std::printf("| %s | %lld | %.4f | %.4f | %.4f | %.2f | %.2f |\n", name.c_str(),
                 static_cast<long long>(sampled->info().voxel_count), d.density, d.coverage,

@@ -129,7 +129,7 @@ void print_slices() {
 
 /// A knit of slices of `size` texels a side, drawn.
 struct Drawn {
-    std::unique_ptr<VoxelSource> voxels;
+    std::unique_ptr<VoxelLevel> voxels;
     double image_seconds = 0.0;
     raster::RasterCounts counts;
 };

@@ -58,7 +58,7 @@ public:
         : volumes_(volumes), truth_(truth), transports_(std::move(transports)) {}
 
     void add_view(Vec3d toward, int level, Comparison& sum) const {
-        const Volume& volume = volumes_.volumes.front();
+        const VolumeInstance& volume = volumes_.volumes.front();
         const Bounds box = volume.bounds();
         const double pixel = std::ldexp(volume.voxel_size(), level);
         const Vec3d forward = normalize(toward);

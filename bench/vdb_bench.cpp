@@ -26,7 +26,7 @@ double now() {
 }
 
 void run(double million, const std::string& path) {
-    const VoxelGrid grid = testing::make_cloth(million * 1e6);
+    const MemoryLevel grid = testing::make_cloth(million * 1e6);
     std::size_t leaves = 0;
     std::int64_t bytes = 0;
     for (const VoxelBlock& b : grid.blocks) {

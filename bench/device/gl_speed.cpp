@@ -3,7 +3,7 @@
 #include <heddle/geom/generate.h>
 #include <heddle/raster/test_difference.h>
 #include <heddle/raster/voxelize_slices.h>
-#include <heddle/viewer/slice/slice_view.h>
+#include <heddle/viewer/slice/slice_renderer.h>
 
 #include <chrono>
 #include <cmath>
@@ -43,11 +43,11 @@ struct Seen {
 Seen look_at(const Geometry& cloth, bool weighted) {
     const opengl::Context context;
     const auto start = std::chrono::steady_clock::now();
-    viewer::SliceView view(context, cloth, {});
+    viewer::SliceRenderer view(context, cloth, {});
     Seen out{view.slice_count(), view.is_split(), seconds_since(start), {}, 0.0};
     viewer::Orbit orbit{.view_angle = 0.6};
     orbit.frame(view.ball(), 1.0);
-    const viewer::ViewTarget target(kSize, kSize);
+    const viewer::RenderTarget target(kSize, kSize);
     for (int frame = -1; frame < kFrames; ++frame) {
         viewer::SliceTimes times;
         target.clear();
@@ -63,7 +63,7 @@ Seen look_at(const Geometry& cloth, bool weighted) {
     return out;
 }
 
-std::unique_ptr<VoxelSource>
+std::unique_ptr<VoxelLevel>
 draw(const Geometry& cloth, raster::RasterPath path, raster::RasterCounts& counts) {
     VoxelizeOptions options;
     options.voxels = 512;

@@ -158,7 +158,7 @@ void print_row(const Row& row, bool with_cpu, const Peaks& peaks) {
     double gigabytes = 0.0;
     const double write = write_seconds(levels.levels, gigabytes);
     DeviceOptions timing;
-    timing.time_stages = true;
+    timing.time_phases = true;
     const Run timed = run_device(g, options, timing, true);
     const double whole = read + levels.seconds + write;
     std::printf(
@@ -195,7 +195,7 @@ void print_mesh(int voxels, double published_ms, double bandwidth) {
     options.voxels = voxels;
     options.subvoxels = 1;
     DeviceOptions timing;
-    timing.time_stages = true;
+    timing.time_phases = true;
     static_cast<void>(run_device(g, options, timing, false));
     const Run run = run_device(g, options, timing, false);
     std::printf("| %zu triangles, %d voxels | %.1f M | %.2f | %.2f | %.2f |\n",

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <heddle/geom/geometry.h>
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 
 #include <cstdint>
 #include <functional>

@@ -70,7 +70,7 @@ double greatest_of(const std::vector<double>& values) {
 
 } // namespace
 
-Parents::Parents(const VoxelSource& level, std::size_t most) : level_(level.info().level) {
+Parents::Parents(const VoxelLevel& level, std::size_t most) : level_(level.info().level) {
     Vec3i hi;
     for (int a = 0; a < 3; ++a) {
         lo_[a] = std::numeric_limits<std::int32_t>::max();
@@ -155,7 +155,7 @@ void Parents::add_below(const Parents& below) {
     total_ = below.total_;
 }
 
-void Parents::pool(const VoxelSource& finest) {
+void Parents::pool(const VoxelLevel& finest) {
     const bool tangents = finest.info().fields.tangents;
     for_each_voxel(finest, [&](const BlockVoxel& v) {
         const std::uint32_t to = find({v.at.x >> level_, v.at.y >> level_, v.at.z >> level_});
@@ -171,7 +171,7 @@ void Parents::pool(const VoxelSource& finest) {
     });
 }
 
-std::vector<Mixture> decode(const VoxelSource& level, const Parents& parents) {
+std::vector<Mixture> decode(const VoxelLevel& level, const Parents& parents) {
     std::vector<Mixture> mixtures(parents.size());
     for_each_voxel(level, [&](const BlockVoxel& v) {
         const std::uint32_t to = parents.find(v.at);

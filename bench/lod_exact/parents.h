@@ -3,7 +3,7 @@
 #include "directions.h"
 
 #include <heddle/sggx/mixture_error.h>
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 
 #include <array>
 #include <cstddef>
@@ -26,7 +26,7 @@ class Parents {
 public:
     /// @param level  its voxels are looked at, not their lobes
     /// @param most   that are chosen, by seeded hash; all where the level has no more
-    Parents(const VoxelSource& level, std::size_t most);
+    Parents(const VoxelLevel& level, std::size_t most);
 
     [[nodiscard]] std::size_t size() const { return voxels_.size(); }
     [[nodiscard]] bool has_all() const { return voxels_.size() == there_; }
@@ -44,7 +44,7 @@ public:
     void add_below(const Parents& below);
     /// Pools level 0's unquantized sums.
     /// @param finest  with masks
-    void pool(const VoxelSource& finest);
+    void pool(const VoxelLevel& finest);
 
     [[nodiscard]] const DirectionTruth& truth(std::size_t i, Kind kind) const {
         return truths_[i * kKinds + static_cast<std::size_t>(kind)];
@@ -74,7 +74,7 @@ struct Mixture {
 };
 
 /// The mixtures of the chosen voxels.
-[[nodiscard]] std::vector<Mixture> decode(const VoxelSource& level, const Parents& parents);
+[[nodiscard]] std::vector<Mixture> decode(const VoxelLevel& level, const Parents& parents);
 
 inline constexpr double kMomentGoal = 0.01; ///< of every voxel
 

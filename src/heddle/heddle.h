@@ -14,7 +14,7 @@
 #include <heddle/sggx/pack.h>
 #include <heddle/sggx/sggx.h>
 #include <heddle/voxel/leaf_voxels.h>
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 #include <heddle/voxelize/voxelize.h>
 
 // The rooms above the core: files and pictures. An install of the core alone does not have them.

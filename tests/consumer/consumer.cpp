@@ -2,7 +2,7 @@
 #include <heddle/base/parallel.h>
 #include <heddle/geom/geometry.h>
 #include <heddle/sggx/sggx.h>
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 
 #include <cstdio>
 #include <functional>
@@ -13,7 +13,7 @@ int main() {
     heddle::Bounds bounds;
     bounds.grow({1.0, 2.0, 3.0}, 0.5);
     const float area = heddle::projected_area({1.0f, 1.0f, 1.0f}, {0.0f, 0.0f, 1.0f});
-    const heddle::VoxelGrid grid;
+    const heddle::MemoryLevel grid;
     std::printf("%zu %g %g %zu\n", sum, bounds.size().x, double{area}, grid.block_count());
     return sum == 100 && bounds.size().x == 1.0 && area == 1.0f && grid.block_count() == 0 ? 0 : 1;
 }

@@ -15,11 +15,11 @@ Json to_json(Vec3d v) {
 
 /// One row a level: what it holds and what that takes.
 void report_levels(Report& report,
-                   const std::vector<VoxelGridInfo>& levels,
+                   const std::vector<VoxelLevelInfo>& levels,
                    const std::vector<GridSummary>& grids) {
     Json list = Json::array();
     std::vector<std::vector<std::string>> rows;
-    for (const VoxelGridInfo& info : levels) {
+    for (const VoxelLevelInfo& info : levels) {
         std::int64_t bytes = 0;
         for (const GridSummary& grid : grids) bytes += grid.level == info.level ? grid.bytes : 0;
         const auto per_voxel = [&](std::int64_t n) {
@@ -78,9 +78,9 @@ void report_material_names(Report& report, const std::vector<Material>& material
 }
 
 void report_volume(Report& report, const job::VolumeInfo& volume) {
-    const std::vector<VoxelGridInfo>& levels = volume.levels;
+    const std::vector<VoxelLevelInfo>& levels = volume.levels;
     const std::vector<GridSummary>& grids = volume.grids;
-    const VoxelGridInfo& info = levels[0];
+    const VoxelLevelInfo& info = levels[0];
     const Vec3d size = info.lattice.voxel_size;
     report.text("name", info.name);
     report.add("voxel_size", "voxel size", to_json(size), show(size) + " scene units");

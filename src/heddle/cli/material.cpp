@@ -9,7 +9,7 @@ namespace heddle::cli {
 namespace {
 
 void report_materials(Report& report, const std::vector<Material>& materials) {
-    Json list = Json::array();
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
     std::vector<std::vector<std::string>> rows;
     for (std::size_t i = 0; i < materials.size(); ++i) {
         const Material& m = materials[i];

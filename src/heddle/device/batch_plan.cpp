@@ -9,7 +9,7 @@ namespace heddle {
 namespace {
 
 /// Blocks of one batch: their cells are numbered in 31 bits.
-constexpr std::int64_t kMostBlocks = (std::int64_t{1} << 31) / kBlockCells - 1;
+constexpr std::int64_t kMaxBlocks = (std::int64_t{1} << 31) / kVoxelsPerBlock - 1;
 
 /// Part of a block's voxels that are there: cloth has .1 to .4.
 constexpr double kFill = 0.4;
@@ -39,14 +39,14 @@ std::int64_t predict_batch_bytes(std::int64_t blocks,
                                  const BatchNeeds& needs) {
     const std::int64_t materials = std::clamp<std::int64_t>(needs.materials, 1, 3);
     const auto voxels =
-        static_cast<std::int64_t>(kFill * static_cast<double>(blocks) * kBlockCells);
+        static_cast<std::int64_t>(kFill * static_cast<double>(blocks) * kVoxelsPerBlock);
     const std::int64_t lobes =
         voxels * std::min<std::int64_t>(materials, needs.made.level0.max_lobes);
-    BatchSettings level0 = needs.made;
+    BatchOptions level0 = needs.made;
     level0.levels = 0;
     // the sums are there while level 0 is written, and gone when it is stored
     std::int64_t gather = DenseSums::byte_count(blocks, blocks * materials, level0.with_maps()) +
-                          blocks * kBlockCells * kBytesPerCell +
+                          blocks * kVoxelsPerBlock * kBytesPerCell +
                           predict_level_bytes(blocks, voxels, lobes, level0);
     for (const std::int64_t n : pairs) gather += n * static_cast<std::int64_t>(sizeof(BlockPair));
     gather += pairs[number_of(PrimitiveKind::Yarn)] *
@@ -61,7 +61,7 @@ std::vector<BatchRange> plan_batches(const BlockOrder& order,
                                      std::int64_t least_batches) {
     const auto total = static_cast<std::int64_t>(order.block.size());
     const std::int64_t most =
-        std::clamp<std::int64_t>(least_batches > 0 ? total / least_batches : total, 1, kMostBlocks);
+        std::clamp<std::int64_t>(least_batches > 0 ? total / least_batches : total, 1, kMaxBlocks);
     std::vector<BatchRange> out;
     std::array<std::int64_t, kPrimitiveKinds> pairs{};
     for (std::size_t i = 0; i < order.block.size(); ++i) {

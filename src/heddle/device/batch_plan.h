@@ -2,7 +2,7 @@
 
 #include <heddle/device/block_pairs_op.h>
 #include <heddle/device/level/batch_levels.h>
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 #include <heddle/voxelize/block_order.h>
 
 #include <array>
@@ -26,7 +26,7 @@ struct BatchRange {
 /// What decides how much a block takes.
 struct BatchNeeds {
     std::int64_t materials = 1; ///< of the geometry
-    BatchSettings made;         ///< of its level 0
+    BatchOptions made;          ///< of its level 0
 };
 
 /// Bytes of device memory that blocks take while they are a batch, by what is known before: sums, pairs,

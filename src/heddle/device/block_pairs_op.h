@@ -110,7 +110,7 @@ struct WalkTriangleOp {
     To to;
 
     HEDDLE_HD void operator()(std::size_t triangle) const {
-        const TrianglePlace at = surfaces.place(triangle);
+        const TriangleId at = surfaces.place(triangle);
         const MeshView& mesh = surfaces.meshes[at.mesh];
         const std::array<std::uint32_t, 3> c = mesh.triangles[at.triangle];
         const Vec3f corners[3] = {mesh.positions[c[0]], mesh.positions[c[1]], mesh.positions[c[2]]};

@@ -3,8 +3,8 @@
 #include <heddle/base/error.h>
 #include <heddle/base/parallel.h>
 #include <heddle/device/batch_plan.h>
+#include <heddle/device/deliver_blocks.h>
 #include <heddle/device/gather_batch.h>
-#include <heddle/device/hand_over.h>
 #include <heddle/device/upload_fibers.h>
 #include <heddle/device/upload_surfaces.h>
 #include <heddle/device/voxelize_device.h>
@@ -21,7 +21,7 @@
 
 namespace heddle {
 
-/// @throws Error  Unsupported: why_not_on_device(); InvalidArgument: options that cannot be
+/// @throws Error  Unsupported: device_limitation(); InvalidArgument: options that cannot be
 void check_device_options(const VoxelizeOptions& options, const DeviceOptions& device);
 
 /// Which kinds of primitives there are.
@@ -45,7 +45,7 @@ public:
           make_(std::move(make)),
           budget_(device.memory_bytes) {}
 
-    [[nodiscard]] std::unique_ptr<VoxelSource> run(Progress& progress, LevelBuilder* levels);
+    [[nodiscard]] std::unique_ptr<VoxelLevel> run(Progress& progress, LevelBuilder* levels);
 
 private:
     /// What one stream has of its own.
@@ -55,7 +55,7 @@ private:
         BatchLevels built;
     };
 
-    [[nodiscard]] std::unique_ptr<Exec> make_exec();
+    [[nodiscard]] std::unique_ptr<Exec> make_executor();
     void upload();
     void count();
     [[nodiscard]] std::vector<BatchRange> plan_work() const;
@@ -69,12 +69,12 @@ private:
     DeviceOptions device_;
     MakeExec make_;
     executor::Budget budget_;
-    executor::StageTimes times_;
+    executor::PhaseTimes times_;
     std::unique_ptr<Exec> base_; ///< holds what all streams read
-    DeviceScene scene_;
-    FiberArrays fibers_;
-    FiberTables tables_;
-    SurfaceArrays surfaces_;
+    DeviceGeometry scene_;
+    DeviceFibers fibers_;
+    DeviceFiberTables tables_;
+    DeviceSurfaces surfaces_;
     PairCounts counts_;
     std::unique_ptr<BlockOrder> order_;
     std::unique_ptr<BlockSink> sink_;
@@ -83,18 +83,18 @@ private:
 };
 
 template <typename Exec>
-std::unique_ptr<Exec> DeviceRun<Exec>::make_exec() {
+std::unique_ptr<Exec> DeviceRun<Exec>::make_executor() {
     std::unique_ptr<Exec> exec = make_(budget_);
-    if (device_.time_stages) exec->time_stages(&times_);
+    if (device_.time_phases) exec->time_phases(&times_);
     return exec;
 }
 
 template <typename Exec>
 void DeviceRun<Exec>::upload() {
     Exec& exec = *base_;
-    exec.set_stage("upload");
+    exec.set_phase("upload");
     const PreparedGeometry& prepared = context_.prepared;
-    const PlacedFibers placed = place_all_fibers(prepared.fibers);
+    const HostFiberTables placed = place_all_fibers(prepared.fibers);
     fibers_ = upload_fibers(exec, prepared.fibers);
     tables_ = upload_tables(exec, placed);
     surfaces_ = upload_surfaces(exec, prepared.surfaces);
@@ -110,7 +110,7 @@ void DeviceRun<Exec>::upload() {
 template <typename Exec>
 void DeviceRun<Exec>::count() {
     Exec& exec = *base_;
-    exec.set_stage("bin");
+    exec.set_phase("bin");
     const std::size_t blocks = context_.prepared.range.count();
     std::array<executor::Array<std::uint32_t>, kPrimitiveKinds> counts;
     CountPairs to{};
@@ -133,7 +133,7 @@ std::vector<BatchRange> DeviceRun<Exec>::plan_work() const {
     const auto slots =
         static_cast<std::int64_t>(context_.prepared.range.count() * sizeof(std::uint32_t));
     const BatchNeeds needs{static_cast<std::int64_t>(context_.prepared.geometry.materials.size()),
-                           batch_settings(context_.fit, levels_)};
+                           batch_options(context_.fit, levels_)};
     const std::int64_t room = budget_.limit() - budget_.used() - streams * slots;
     return plan_batches(*order_, counts_, needs, room / streams,
                         std::max(device_.batches, streams));
@@ -166,8 +166,8 @@ void DeviceRun<Exec>::work(std::size_t streams,
     std::atomic<std::size_t> next{0};
     const auto run_lane = [&] {
         Lane lane;
-        lane.exec = make_exec();
-        lane.exec->set_stage("bin");
+        lane.exec = make_executor();
+        lane.exec->set_phase("bin");
         lane.slot_of_block =
             lane.exec->template make<std::uint32_t>(context_.prepared.range.count());
         for (std::size_t b = next++; b < batches.size(); b = next++) {
@@ -216,19 +216,19 @@ void DeviceRun<Exec>::finish_batch(Lane& lane,
                                    const BlockBatch& batch,
                                    LevelArrays& level0) {
     build_batch_levels(*lane.exec, std::move(level0), batch.blocks.size(),
-                       batch_settings(context_.fit, levels_), lane.built);
-    hand_over(lane.built, range.begin, batch.blocks, *sink_, levels_);
+                       batch_options(context_.fit, levels_), lane.built);
+    deliver_blocks(lane.built, range.begin, batch.blocks, *sink_, levels_);
 }
 
 template <typename Exec>
-std::unique_ptr<VoxelSource> DeviceRun<Exec>::run(Progress& progress, LevelBuilder* levels) {
+std::unique_ptr<VoxelLevel> DeviceRun<Exec>::run(Progress& progress, LevelBuilder* levels) {
     DeviceReport report;
     const auto seconds_since = [](std::chrono::steady_clock::time_point start) {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     };
     levels_ = levels;
     auto start = std::chrono::steady_clock::now();
-    base_ = make_exec();
+    base_ = make_executor();
     upload();
     report.upload_seconds = seconds_since(start);
     start = std::chrono::steady_clock::now();
@@ -255,12 +255,12 @@ std::unique_ptr<VoxelSource> DeviceRun<Exec>::run(Progress& progress, LevelBuild
 /// Voxelizes by executors of a kind that are made of a Budget alone.
 /// @param device  memory_bytes is set
 template <typename Exec>
-[[nodiscard]] std::unique_ptr<VoxelSource> run_on(const Geometry& geometry,
-                                                  const VoxelizeOptions& options,
-                                                  const VoxelizePlan& plan,
-                                                  const DeviceOptions& device,
-                                                  Progress& progress,
-                                                  LevelBuilder* levels) {
+[[nodiscard]] std::unique_ptr<VoxelLevel> run_on(const Geometry& geometry,
+                                                 const VoxelizeOptions& options,
+                                                 const VoxelizePlan& plan,
+                                                 const DeviceOptions& device,
+                                                 Progress& progress,
+                                                 LevelBuilder* levels) {
     const std::unique_ptr<PreparedGeometry> prepared = take_prepared(plan, geometry, options.seed);
     prepared->drop_bins(); // the device counts by kind
     const VoxelizeContext context(*prepared, options);

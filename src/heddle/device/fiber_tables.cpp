@@ -5,7 +5,7 @@
 namespace heddle {
 namespace {
 
-void append(const FiberTable& table, PlacedFibers& out) {
+void append(const FiberTable& table, HostFiberTables& out) {
     const auto count = static_cast<std::ptrdiff_t>(table.size());
     const auto add = [&](auto& to, const auto& from) {
         to.insert(to.end(), from.begin(), from.begin() + count);
@@ -22,9 +22,9 @@ void append(const FiberTable& table, PlacedFibers& out) {
 
 } // namespace
 
-PlacedFibers place_all_fibers(const FiberSource& source) {
+HostFiberTables place_all_fibers(const FiberSource& source) {
     const std::vector<CurveSet>& sets = source.geometry().curves;
-    PlacedFibers out;
+    HostFiberTables out;
     out.first.push_back(0);
     for (std::uint32_t s = 0; s < sets.size(); ++s) {
         out.yarn_of_set.push_back(out.first.size() - 1);

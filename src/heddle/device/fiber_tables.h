@@ -47,28 +47,28 @@ template <typename T>
 using PointedColumn = const T*;
 
 /// On the host.
-using PlacedFibers = FiberColumns<HostColumn>;
+using HostFiberTables = FiberColumns<HostColumn>;
 /// Where an executor works.
-using FiberTables = FiberColumns<executor::Array>;
+using DeviceFiberTables = FiberColumns<executor::Array>;
 /// What ops read; crosses to the device as it lies.
 using FiberTablesView = FiberColumns<PointedColumn>;
 static_assert(sizeof(FiberTablesView) == 96, "the same on host and device");
 
 /// Places all fibers of a geometry: on the host, since exp and pow differ between machines.
-[[nodiscard]] PlacedFibers place_all_fibers(const FiberSource& source);
+[[nodiscard]] HostFiberTables place_all_fibers(const FiberSource& source);
 
 /// @throws Error  OutOfMemory, Device
 template <typename Exec>
-[[nodiscard]] FiberTables upload_tables(Exec& exec, const PlacedFibers& placed) {
-    exec.set_stage("upload of fibers");
-    FiberTables out;
+[[nodiscard]] DeviceFiberTables upload_tables(Exec& exec, const HostFiberTables& placed) {
+    exec.set_phase("upload of fibers");
+    DeviceFiberTables out;
     for_each_column(placed, out,
                     [&](const auto& from, auto& to) { to = exec.make_from(std::span(from)); });
     return out;
 }
 
 /// Valid while `tables` lives.
-[[nodiscard]] inline FiberTablesView view_of(const FiberTables& tables) {
+[[nodiscard]] inline FiberTablesView view_of(const DeviceFiberTables& tables) {
     FiberTablesView out;
     for_each_column(tables, out, [](const auto& from, auto& to) { to = from.data(); });
     return out;

@@ -12,7 +12,7 @@
 namespace heddle {
 
 /// A geometry where executors work, and the lattice that it is voxelized on: read by all of them.
-struct DeviceScene {
+struct DeviceGeometry {
     FiberView fibers;
     FiberTablesView tables;
     SurfaceView surfaces;
@@ -52,7 +52,7 @@ struct SetSlotsOp {
 
 /// Shows each primitive of the scene with each block that it may touch to `to`.
 template <typename Exec, typename To>
-void walk_primitives(Exec& exec, const DeviceScene& scene, const To& to) {
+void walk_primitives(Exec& exec, const DeviceGeometry& scene, const To& to) {
     exec.for_each(scene.fibers.span_count,
                   WalkSpanOp<To>{scene.fibers, scene.units, scene.range, to});
     exec.for_each(scene.surfaces.triangle_count,
@@ -62,9 +62,11 @@ void walk_primitives(Exec& exec, const DeviceScene& scene, const To& to) {
 /// Lists the primitives of a batch's blocks, and gives each block its planes: one a material.
 /// @param slot_of_block  room for a number per block of the range
 template <typename Exec>
-[[nodiscard]] BatchPairs
-list_pairs(Exec& exec, const DeviceScene& scene, BlockBatch& batch, std::uint32_t* slot_of_block) {
-    exec.set_stage("bin");
+[[nodiscard]] BatchPairs list_pairs(Exec& exec,
+                                    const DeviceGeometry& scene,
+                                    BlockBatch& batch,
+                                    std::uint32_t* slot_of_block) {
+    exec.set_phase("bin");
     const std::size_t n = batch.blocks.size();
     const auto numbers = exec.make_from(std::span<const std::uint32_t>(batch.numbers));
     const auto blocks = exec.make_from(std::span<const BatchBlock>(batch.blocks));
@@ -94,7 +96,7 @@ list_pairs(Exec& exec, const DeviceScene& scene, BlockBatch& batch, std::uint32_
 /// Gathers the single round curves of a batch.
 template <typename Exec>
 void gather_plain(Exec& exec, const FiberBatch& batch, const executor::Array<BlockPair>& pairs) {
-    exec.set_stage("gather of curves");
+    exec.set_phase("gather of curves");
     exec.for_each(pairs.size(), GatherPlainOp{batch, pairs.data()});
 }
 
@@ -103,7 +105,7 @@ template <typename Exec>
 void gather_yarns(Exec& exec, const FiberBatch& batch, const executor::Array<BlockPair>& pairs) {
     const std::size_t n = pairs.size();
     if (n == 0) return;
-    exec.set_stage("gather of yarns");
+    exec.set_phase("gather of yarns");
     const auto yarns = exec.template make<YarnPair>(n);
     const auto count = [&] { return exec.template make<std::uint32_t>(n); };
     const auto first = [&] { return exec.template make<std::uint64_t>(n + 1); };
@@ -127,11 +129,11 @@ void gather_yarns(Exec& exec, const FiberBatch& batch, const executor::Array<Blo
 /// Gathers a batch's triangles of one kind.
 template <SurfaceKind Kind, typename Exec>
 void gather_triangles(Exec& exec,
-                      const DeviceScene& scene,
+                      const DeviceGeometry& scene,
                       const DenseSums& sums,
                       const BatchPairs& pairs) {
     const executor::Array<BlockPair>& of_kind = pairs.of[number_of(Kind)];
-    exec.set_stage("gather of triangles");
+    exec.set_phase("gather of triangles");
     exec.for_each(of_kind.size(),
                   GatherTriangleOp<Kind>{scene.surfaces, scene.units, sums, of_kind.data()});
 }
@@ -140,11 +142,11 @@ void gather_triangles(Exec& exec,
 /// @throws Error  OutOfMemory, Device
 template <typename Exec>
 [[nodiscard]] LevelArrays gather_batch(Exec& exec,
-                                       const DeviceScene& scene,
+                                       const DeviceGeometry& scene,
                                        BlockBatch& batch,
                                        std::uint32_t* slot_of_block) {
     const BatchPairs pairs = list_pairs(exec, scene, batch, slot_of_block);
-    exec.set_stage("sums");
+    exec.set_phase("sums");
     const std::size_t n = batch.blocks.size();
     std::size_t planes = 0;
     bool merging = false;
@@ -154,11 +156,11 @@ template <typename Exec>
     }
     const auto blocks = exec.make_from(std::span<const BatchBlock>(batch.blocks));
     const auto masks =
-        exec.template make_zero<std::uint64_t>(n * kBlockCells * DenseLobe::kMaskWords);
+        exec.template make_zero<std::uint64_t>(n * kVoxelsPerBlock * DenseLobe::kMaskWords);
     const auto lobes =
-        exec.template make_zero<std::uint64_t>(planes * kBlockCells * DenseLobe::kLobeWords);
+        exec.template make_zero<std::uint64_t>(planes * kVoxelsPerBlock * DenseLobe::kLobeWords);
     const auto maps = exec.template make_zero<std::uint64_t>(
-        scene.fit.fields.map_sums() ? planes * kBlockCells * DenseLobe::kMapWords : 0);
+        scene.fit.fields.map_sums() ? planes * kVoxelsPerBlock * DenseLobe::kMapWords : 0);
     const DenseSums sums{blocks.data(), masks.data(), lobes.data(), maps.data()};
     const FiberBatch fibers{scene.fibers, scene.tables, scene.units, sums};
     gather_plain(exec, fibers, pairs.of[number_of(PrimitiveKind::Plain)]);

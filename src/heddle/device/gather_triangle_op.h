@@ -18,7 +18,7 @@ struct GatherTriangleOp {
 
     HEDDLE_HD void operator()(std::size_t i) const {
         const BatchBlock& block = sums.blocks[pairs[i].slot];
-        const TrianglePlace at = surfaces.place(triangle_of(pairs[i].primitive));
+        const TriangleId at = surfaces.place(triangle_of(pairs[i].primitive));
         const DenseLobe to = sums.lobe(pairs[i].slot, surfaces.meshes[at.mesh].material);
         add_triangle<Kind>(surfaces, at, units, block.lo, block.lo + block.size, to, NoScratch{});
     }

@@ -11,7 +11,7 @@
 namespace heddle {
 
 /// A FiberView where an executor works, and the arrays that it points to.
-struct FiberArrays {
+struct DeviceFibers {
     /// Of one curve set; arrays that the set lacks are empty.
     struct Set {
         executor::Array<Vec3f> points, normal;
@@ -30,13 +30,13 @@ struct FiberArrays {
 /// Copies what fibers are made of to where `exec` works.
 /// @throws Error  OutOfMemory, Device
 template <typename Exec>
-[[nodiscard]] FiberArrays upload_fibers(Exec& exec, const FiberSource& source) {
+[[nodiscard]] DeviceFibers upload_fibers(Exec& exec, const FiberSource& source) {
     using upload_detail::replace;
-    FiberArrays out;
+    DeviceFibers out;
     out.view = source.view();
     std::vector<CurveSetView> sets(out.view.sets, out.view.sets + out.view.set_count);
     for (CurveSetView& set : sets) {
-        FiberArrays::Set& part = out.parts.emplace_back();
+        DeviceFibers::Set& part = out.parts.emplace_back();
         if (set.curve_count == 0) continue; // nothing of it is read
         const std::size_t curves = set.curve_count;
         const std::size_t points = set.first[curves];

@@ -77,7 +77,7 @@ TEST(UploadFibers, TheCopyGivesTheSourcesBitsWithoutTheSource) {
     executor::Budget budget(std::int64_t{1} << 30);
     executor::HostExecutor exec(budget);
     std::vector<SpanBits> expected;
-    FiberArrays arrays;
+    DeviceFibers arrays;
     const LatticeUnits units(Lattice{{0.02, 0.05, 0.03}, 8});
     {
         const Geometry geometry = swatch_and_rings();

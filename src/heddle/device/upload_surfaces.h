@@ -15,7 +15,7 @@
 namespace heddle {
 
 /// A SurfaceView where an executor works, and the arrays that it points to.
-struct SurfaceArrays {
+struct DeviceSurfaces {
     /// Of one mesh; arrays that it lacks are empty.
     struct Mesh {
         executor::Array<Vec3f> positions, normals, move_normals;
@@ -42,8 +42,8 @@ struct SurfaceArrays {
 namespace upload_detail {
 
 template <typename Exec>
-SurfaceArrays::Texture upload_texture(Exec& exec, TextureView& view) {
-    SurfaceArrays::Texture part;
+DeviceSurfaces::Texture upload_texture(Exec& exec, TextureView& view) {
+    DeviceSurfaces::Texture part;
     std::vector<TextureLevel> levels(view.levels, view.levels + view.level_count);
     const auto size_of = [](const TextureLevel& l) {
         return static_cast<std::size_t>(l.width) * static_cast<std::size_t>(l.height);
@@ -60,8 +60,8 @@ SurfaceArrays::Texture upload_texture(Exec& exec, TextureView& view) {
 }
 
 template <typename Exec>
-SurfaceArrays::Mesh upload_mesh(Exec& exec, MeshView& view, std::size_t triangles) {
-    SurfaceArrays::Mesh part;
+DeviceSurfaces::Mesh upload_mesh(Exec& exec, MeshView& view, std::size_t triangles) {
+    DeviceSurfaces::Mesh part;
     const std::size_t n = view.vertex_count;
     const bool own_normals = view.move_normals == view.normals;
     replace(exec, part.positions, view.positions, n);
@@ -92,9 +92,9 @@ point_to_copy(const SurfaceSource& source, const TextureView* copies, const Text
 /// averages.
 /// @throws Error  OutOfMemory, Device
 template <typename Exec>
-[[nodiscard]] SurfaceArrays upload_surfaces(Exec& exec, const SurfaceSource& source) {
+[[nodiscard]] DeviceSurfaces upload_surfaces(Exec& exec, const SurfaceSource& source) {
     using namespace upload_detail;
-    SurfaceArrays out;
+    DeviceSurfaces out;
     out.view = source.view();
     std::vector<TextureView> textures;
     for (std::size_t i = 0; i < source.texture_count(); ++i) {

@@ -59,7 +59,7 @@ struct AddToBlock {
     bool with_maps;
 
     HEDDLE_HD void operator()(std::size_t triangle) const {
-        const TrianglePlace at = surfaces.place(triangle);
+        const TriangleId at = surfaces.place(triangle);
         const MeshView& mesh = surfaces.meshes[at.mesh];
         const std::array<std::uint32_t, 3> c = mesh.triangles[at.triangle];
         const Vec3f corners[3] = {mesh.positions[c[0]], mesh.positions[c[1]], mesh.positions[c[2]]};
@@ -74,7 +74,7 @@ struct AddToBlock {
 };
 
 /// A scene on a lattice: lo and hi are its voxels.
-struct Scene {
+struct SurfaceCase {
     Geometry geometry;
     Lattice lattice;
     Vec3i lo, hi;
@@ -121,13 +121,13 @@ Words gather_block(executor::HostExecutor& exec, AddToBlock add) {
 
 /// All blocks of a scene: through an uploaded view as by the CPU's gatherer.
 /// @return  voxels that were hit
-int expect_same_sums(const Scene& scene) {
+int expect_same_sums(const SurfaceCase& scene) {
     executor::Budget budget(std::int64_t{1} << 32);
     executor::HostExecutor exec(budget);
     const VoxelizeOptions options;
     PreparedGeometry prepared(scene.geometry, scene.lattice, scene.lo, scene.hi, options.seed);
     const VoxelizeContext context(prepared, options);
-    const SurfaceArrays arrays = upload_surfaces(exec, prepared.surfaces);
+    const DeviceSurfaces arrays = upload_surfaces(exec, prepared.surfaces);
     const Progress silent;
     const Bins& bins = prepared.bins(silent);
     TriangleGatherer gatherer(prepared.surfaces, prepared.units, FitMode::Moments);
@@ -160,9 +160,9 @@ double length_of(const Geometry& geometry) {
 }
 
 /// The voxels that a geometry's points lie in, and `more` around them.
-Scene scene_of(Geometry geometry, Lattice lattice, int more = 1) {
+SurfaceCase scene_of(Geometry geometry, Lattice lattice, int more = 1) {
     const Bounds box = bounds_of(geometry);
-    Scene scene{std::move(geometry), lattice, {}, {}};
+    SurfaceCase scene{std::move(geometry), lattice, {}, {}};
     for (int a = 0; a < 3; ++a) {
         scene.lo[a] = static_cast<int>(std::floor(box.lo[a] / lattice.voxel_size[a])) - more;
         scene.hi[a] = static_cast<int>(std::floor(box.hi[a] / lattice.voxel_size[a])) + 1 + more;
@@ -243,7 +243,7 @@ TEST(UploadSurfaces, TheCopyNeedsNothingOfTheSource) {
     const LatticeUnits units(Lattice{{0.06, 0.08, 0.05}, 4});
     const BlockRange range({-32, -32, -32}, {0, 0, 0});
     Words expected;
-    SurfaceArrays arrays;
+    DeviceSurfaces arrays;
     {
         const Geometry geometry = textured_balls();
         const SurfaceSource source(geometry, units, 1);
@@ -268,7 +268,7 @@ TEST(UploadSurfaces, GrassCutByAlphaHasTheCpusSums) {
 
 TEST(UploadSurfaces, TexturedBallsHaveTheCpusSumsInAnyVoxelsAndRegions) {
     for (const int subvoxels : {1, 2, 4, 8}) {
-        Scene scene = scene_of(textured_balls(), {{0.06, 0.08, 0.05}, subvoxels});
+        SurfaceCase scene = scene_of(textured_balls(), {{0.06, 0.08, 0.05}, subvoxels});
         EXPECT_GT(expect_same_sums(scene), 5000) << subvoxels;
         scene.lo = scene.lo + Vec3i{7, 3, 0};
         scene.hi = scene.hi - Vec3i{0, 9, 11};

@@ -6,7 +6,7 @@
 
 namespace heddle {
 
-std::string why_not_on_device(const VoxelizeOptions& options) {
+std::string device_limitation(const VoxelizeOptions& options) {
     if (options.coverage == CoverageMode::Mask) return "coverage 'mask' is made on the CPU alone";
     if (options.fit == FitMode::Last) return "fit 'last' is made on the CPU alone";
     return {};
@@ -26,7 +26,7 @@ std::array<bool, kPrimitiveKinds> kinds_of(const VoxelizeContext& context) {
 }
 
 void check_device_options(const VoxelizeOptions& options, const DeviceOptions& device) {
-    const std::string cannot = why_not_on_device(options);
+    const std::string cannot = device_limitation(options);
     if (!cannot.empty()) {
         throw Error(ErrorCode::Unsupported, "voxelize: " + cannot, "use the CPU");
     }
@@ -38,12 +38,12 @@ void check_device_options(const VoxelizeOptions& options, const DeviceOptions& d
     }
 }
 
-std::unique_ptr<VoxelSource> voxelize_on_host_executor(const Geometry& geometry,
-                                                       const VoxelizeOptions& options,
-                                                       const VoxelizePlan& plan,
-                                                       const DeviceOptions& device,
-                                                       Progress& progress,
-                                                       LevelBuilder* levels) {
+std::unique_ptr<VoxelLevel> voxelize_on_host_executor(const Geometry& geometry,
+                                                      const VoxelizeOptions& options,
+                                                      const VoxelizePlan& plan,
+                                                      const DeviceOptions& device,
+                                                      Progress& progress,
+                                                      LevelBuilder* levels) {
     check_device_options(options, device);
     DeviceOptions with_memory = device;
     if (device.memory_bytes == 0) with_memory.memory_bytes = available_bytes() / 10 * 9;
@@ -52,12 +52,12 @@ std::unique_ptr<VoxelSource> voxelize_on_host_executor(const Geometry& geometry,
 
 #if !HEDDLE_HAS_CUDA
 
-std::unique_ptr<VoxelSource> voxelize_on_cuda(const Geometry&,
-                                              const VoxelizeOptions&,
-                                              const VoxelizePlan&,
-                                              const DeviceOptions&,
-                                              Progress&,
-                                              LevelBuilder*) {
+std::unique_ptr<VoxelLevel> voxelize_on_cuda(const Geometry&,
+                                             const VoxelizeOptions&,
+                                             const VoxelizePlan&,
+                                             const DeviceOptions&,
+                                             Progress&,
+                                             LevelBuilder*) {
     throw Error(ErrorCode::Device, "voxelize: " + executor::find_device().why, "use the CPU");
 }
 

@@ -5,12 +5,12 @@
 
 namespace heddle {
 
-std::unique_ptr<VoxelSource> voxelize_on_cuda(const Geometry& geometry,
-                                              const VoxelizeOptions& options,
-                                              const VoxelizePlan& plan,
-                                              const DeviceOptions& device,
-                                              Progress& progress,
-                                              LevelBuilder* levels) {
+std::unique_ptr<VoxelLevel> voxelize_on_cuda(const Geometry& geometry,
+                                             const VoxelizeOptions& options,
+                                             const VoxelizePlan& plan,
+                                             const DeviceOptions& device,
+                                             Progress& progress,
+                                             LevelBuilder* levels) {
     check_device_options(options, device);
     const executor::Device found = executor::find_device();
     if (found.name.empty()) throw Error(ErrorCode::Device, "voxelize: " + found.why, "use the CPU");

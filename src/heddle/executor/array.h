@@ -1,7 +1,7 @@
 #pragma once
 
 #include <heddle/executor/budget.h>
-#include <heddle/executor/stage_times.h>
+#include <heddle/executor/phase_times.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -37,14 +37,14 @@ public:
     }
 
     /// Names the phase that starts now, for errors. @param name  a literal: it is not copied
-    void set_stage(std::string_view name) { stage_ = name; }
+    void set_phase(std::string_view name) { stage_ = name; }
     [[nodiscard]] std::string_view stage() const { return stage_; }
     [[nodiscard]] Budget& budget() const { return budget_; }
     /// Waits for each launch from now on and adds its time. @param times  null: stops timing
-    void time_stages(StageTimes* times) { times_ = times; }
+    void time_phases(PhaseTimes* times) { times_ = times; }
 
 protected:
-    StageTimes* times_ = nullptr;
+    PhaseTimes* times_ = nullptr;
 
 private:
     virtual void* allocate(std::size_t bytes) = 0;

@@ -40,7 +40,7 @@ public:
     void upload(T* to, std::span<const T> from) {
         const std::size_t bytes = from.size_bytes();
         if (bytes == 0) return;
-        check(bytes < Staging::kLeast
+        check(bytes < Staging::kMin
                   ? cudaMemcpyAsync(to, from.data(), bytes, cudaMemcpyHostToDevice, stream_)
                   : staging_.upload(reinterpret_cast<std::byte*>(to),
                                     reinterpret_cast<const std::byte*>(from.data()), bytes,
@@ -51,7 +51,7 @@ public:
     void download(std::span<T> to, const T* from) {
         const std::size_t bytes = to.size_bytes();
         if (bytes == 0) return;
-        check(bytes < Staging::kLeast
+        check(bytes < Staging::kMin
                   ? cudaMemcpyAsync(to.data(), from, bytes, cudaMemcpyDeviceToHost, stream_)
                   : staging_.download(reinterpret_cast<std::byte*>(to.data()),
                                       reinterpret_cast<const std::byte*>(from), bytes, stream_),
@@ -70,7 +70,7 @@ public:
                         str(stage(), ": ", n, " items are too many for one launch"),
                         "lower --device-memory");
         }
-        const StageTimer timer = begin_timing();
+        const PhaseTimer timer = begin_timing();
         for_each_kernel<<<static_cast<unsigned>(blocks), kThreads, 0, stream_>>>(op, n);
         check(cudaGetLastError(), "launch");
         if (times_ != nullptr) wait();
@@ -82,7 +82,7 @@ public:
                         str(stage(), ": ", n, " counts are too many for one scan"),
                         "lower --device-memory");
         }
-        const StageTimer timer = begin_timing();
+        const PhaseTimer timer = begin_timing();
         check(cudaMemsetAsync(first, 0, sizeof(Out), stream_), "clearing");
         if (n == 0) return;
         std::size_t bytes = 0;
@@ -98,9 +98,9 @@ public:
     }
 
 private:
-    [[nodiscard]] StageTimer begin_timing() {
+    [[nodiscard]] PhaseTimer begin_timing() {
         if (times_ != nullptr) wait(); // earlier launches belong to their own phase
-        return StageTimer(times_, stage());
+        return PhaseTimer(times_, stage());
     }
     void check(cudaError_t status, const char* what) const {
         if (status == cudaSuccess) return;

@@ -47,7 +47,7 @@ TEST(HostExecutor, OffsetsAreSumsOfWhatIsBefore) {
 TEST(HostExecutor, TakesNoMoreThanTheBudgetAndGivesItBack) {
     Budget budget(1000);
     HostExecutor exec(budget);
-    exec.set_stage("gather");
+    exec.set_phase("gather");
     {
         const Array<char> held = exec.make<char>(600);
         try {

@@ -41,7 +41,7 @@ public:
     /// values.
     template <typename Op>
     void for_each(std::size_t n, const Op& op) {
-        const StageTimer timer(times_, stage());
+        const PhaseTimer timer(times_, stage());
         const std::size_t share = n / (static_cast<std::size_t>(thread_count()) * 8);
         parallel_chunks(n, std::clamp<std::size_t>(share, 1, 1024),
                         [&](std::size_t begin, std::size_t end) {
@@ -51,7 +51,7 @@ public:
     /// first[i] = count[0] + ... + count[i - 1] for i in [0, n]: n + 1 numbers.
     template <typename In, typename Out>
     void offsets(const In* count, Out* first, std::size_t n) {
-        const StageTimer timer(times_, stage());
+        const PhaseTimer timer(times_, stage());
         Out sum{};
         for (std::size_t i = 0; i < n; ++i) {
             first[i] = sum;

@@ -15,7 +15,7 @@ namespace heddle::executor {
 class Staging {
 public:
     static constexpr std::size_t kBytes = std::size_t{16} << 20; ///< per buffer
-    static constexpr std::size_t kLeast = std::size_t{1} << 20;  ///< smaller copies go directly
+    static constexpr std::size_t kMin = std::size_t{1} << 20;    ///< smaller copies go directly
 
     Staging() = default;
     ~Staging() {

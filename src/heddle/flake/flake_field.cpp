@@ -28,12 +28,12 @@ void add(SymmetricMatrix& sum, const SymmetricMatrix& M, float weight) {
     sum.yz += weight * M.yz;
 }
 
-/// Largest eigenvalue 1, no smaller one than kLeastFlake.
+/// Largest eigenvalue 1, no smaller one than kMinFlake.
 SggxMatrix scale_flake(const SggxMatrix& S) {
     SymmetricEigen e = decompose(S);
     const double largest = e.value[0];
     for (double& v : e.value) {
-        v = std::clamp(v / largest, static_cast<double>(kLeastFlake), 1.0);
+        v = std::clamp(v / largest, static_cast<double>(kMinFlake), 1.0);
     }
     return compose(e);
 }
@@ -133,7 +133,7 @@ void FlakeField::Draft::grow(std::uint8_t pass) {
     }
 }
 
-FlakeField::FlakeField(const VoxelSource& source, std::span<const Vec3f> albedo)
+FlakeField::FlakeField(const VoxelLevel& source, std::span<const Vec3f> albedo)
     : voxel_size_(source.info().lattice.voxel_size) {
     const auto voxels = static_cast<std::size_t>(source.info().voxel_count);
     sigma_t_.reserve(voxels);
@@ -161,7 +161,7 @@ FlakeField::FlakeField(const VoxelSource& source, std::span<const Vec3f> albedo)
     drop_equal_albedo();
 }
 
-void FlakeField::add_voxel(const VoxelGridInfo& info,
+void FlakeField::add_voxel(const VoxelLevelInfo& info,
                            const BlockVoxel& voxel,
                            std::span<const Vec3f> albedo) {
     const bool colors = albedo_.capacity() > 0;
@@ -206,7 +206,7 @@ void FlakeField::for_each_in_box(Vec3i low, Vec3i size, const Visit& visit) cons
         return p.x >= low.x && p.y >= low.y && p.z >= low.z && p.x < end.x && p.y < end.y &&
                p.z < end.z;
     };
-    const auto visit_leaf = [&](const Leaf& leaf, Vec3i origin) {
+    const auto visit_leaf = [&](const FlakeLeaf& leaf, Vec3i origin) {
         std::size_t v = leaf.first;
         for_each_active(leaf.active, [&](std::size_t x, int bit) {
             const Vec3i p = voxel_index(origin, x, bit);

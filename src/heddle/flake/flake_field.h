@@ -15,7 +15,7 @@ namespace heddle {
 /// eigenvalue: a twentieth of the smallest, so it stays positive definite.
 inline constexpr float kFlakeUnit = 1.0f / 32767.0f;
 /// Smallest eigenvalue of a flake's S, of the largest: seen end on, a fiber hides 3 % of its side.
-inline constexpr float kLeastFlake = 1e-3f;
+inline constexpr float kMinFlake = 1e-3f;
 
 /// An SGGX of normals, largest eigenvalue 1: xx yy zz xy xz yz in kFlakeUnit.
 using PackedFlake = std::array<std::int16_t, 6>;
@@ -45,7 +45,7 @@ class FlakeField {
 public:
     /// Copies what it needs of `source`. Memory: 16 bytes a voxel, 3 more where albedo varies.
     /// @param albedo  of each of the grid's materials, linear
-    FlakeField(const VoxelSource& source, std::span<const Vec3f> albedo);
+    FlakeField(const VoxelLevel& source, std::span<const Vec3f> albedo);
 
     /// Voxel indices that hold all voxels: [lo, hi); lo = hi where there are none.
     [[nodiscard]] Vec3i lo() const { return lo_; }
@@ -64,13 +64,13 @@ public:
     [[nodiscard]] bool any(Vec3i low, Vec3i size) const;
 
 private:
-    struct Leaf {
+    struct FlakeLeaf {
         std::array<std::uint64_t, 8> active{};
         std::size_t first = 0;
     };
     struct Draft;
     void
-    add_voxel(const VoxelGridInfo& info, const BlockVoxel& voxel, std::span<const Vec3f> albedo);
+    add_voxel(const VoxelLevelInfo& info, const BlockVoxel& voxel, std::span<const Vec3f> albedo);
     void drop_equal_albedo();
     template <typename Visit>
     void for_each_in_box(Vec3i low, Vec3i size, const Visit& visit) const;
@@ -79,7 +79,7 @@ private:
     Vec3i lo_{}, hi_{};
     Vec3f one_albedo_{0.8f, 0.8f, 0.8f};
     LeafTable<3> table_;
-    std::vector<Leaf> leaves_; ///< by the table's numbers
+    std::vector<FlakeLeaf> leaves_; ///< by the table's numbers
     std::vector<Vec3i> origins_;
     std::vector<float> sigma_t_;
     std::vector<PackedFlake> S_;

@@ -47,14 +47,14 @@ const KindInfo& info(GenerateKind kind) {
 }
 
 /// Stitches, crossings, points, texels or quads: even 20 points each are easily counted in 64 bits.
-constexpr double kMostCells = 0x1p36;
+constexpr double kMaxCells = 0x1p36;
 /// Texels along an axis: more than image files and glTF viewers accept.
-constexpr std::int64_t kMostTexels = 65536;
+constexpr std::int64_t kMaxTexels = 65536;
 /// Vertices of a mesh: its triangles have 32-bit indices.
-constexpr double kMostVertices = 0x1p32;
+constexpr double kMaxVertices = 0x1p32;
 
 void check_count(const KindInfo& kind, const char* name, std::int64_t n, std::int64_t least) {
-    const std::int64_t most = kind.kind == GenerateKind::Brushed ? kMostTexels : 1LL << 36;
+    const std::int64_t most = kind.kind == GenerateKind::Brushed ? kMaxTexels : 1LL << 36;
     if (n < least || n > most) {
         throw Error(
             ErrorCode::InvalidArgument,
@@ -78,7 +78,7 @@ void check_total(const KindInfo& kind, const GenerateOptions& o) {
     const double cells = static_cast<double>(o.nx) * static_cast<double>(o.ny);
     const bool grass = kind.kind == GenerateKind::Grass;
     const double vertices = 2.0 * static_cast<double>(o.nx) * (static_cast<double>(o.ny) + 1.0);
-    if (cells > kMostCells || (grass && vertices > kMostVertices)) {
+    if (cells > kMaxCells || (grass && vertices > kMaxVertices)) {
         throw Error(ErrorCode::InvalidArgument,
                     grass ? str(kind.name, ": nx ", o.nx, " by ny ", o.ny, " makes ", vertices,
                                 " vertices, a mesh holds 2^32")

@@ -14,8 +14,8 @@ constexpr double kPi = std::numbers::pi;
 /// Middle radius of a fold in thicknesses: its inner face is shortened by a third, about where
 /// yarns would start to intersect, and the gap between layers is two thicknesses.
 constexpr double kFoldRadius = 1.5;
-constexpr int kMostLayers = 4;
-constexpr double kMostFolds = 5.0;
+constexpr int kMaxLayers = 4;
+constexpr double kMaxFolds = 5.0;
 /// Slope of a hanging cloth at its hem, radians: as deep as a full curtain, without overhang.
 constexpr double kHemSlope = 1.1;
 
@@ -52,7 +52,7 @@ Sheet::Sheet(GenerateShape shape, double width, double height, double thickness)
     if (shape == GenerateShape::Folded) {
         // the flat part of a layer is at least as long as a fold
         layers_ = static_cast<int>(
-            std::clamp((height + turn) / (2.0 * turn), 0.0, static_cast<double>(kMostLayers)));
+            std::clamp((height + turn) / (2.0 * turn), 0.0, static_cast<double>(kMaxLayers)));
         if (layers_ < 2) {
             throw Error(ErrorCode::InvalidArgument,
                         str("a cloth ", height, " long is too short to be folded; at least ",
@@ -65,7 +65,7 @@ Sheet::Sheet(GenerateShape shape, double width, double height, double thickness)
     if (shape == GenerateShape::Hanging) {
         // the smallest radius of curvature is wavelength / (2 pi slope)
         const double shortest = 2.0 * kPi * kHemSlope * 2.0 * fold_radius_;
-        wavelength_ = width / std::clamp(std::floor(width / shortest), 1.0, kMostFolds);
+        wavelength_ = width / std::clamp(std::floor(width / shortest), 1.0, kMaxFolds);
         slope_ = kHemSlope * std::min(1.0, wavelength_ / shortest);
     }
 }

@@ -111,7 +111,7 @@ private:
 };
 
 /// What edits ask of voxels that do not have it.
-std::vector<std::string> missing_tangents(const VoxelGridInfo& info,
+std::vector<std::string> missing_tangents(const VoxelLevelInfo& info,
                                           const std::vector<Material>& materials) {
     std::vector<std::string> notes;
     for (std::size_t i = 0; i < materials.size() && !info.fields.tangents; ++i) {
@@ -148,7 +148,7 @@ MaterialReport edit_materials_of_file(const std::string& path,
         check_output(*options.output, ".vdb");
     }
     progress.begin("read", "files", 1);
-    const VoxelGridInfo info = read_infos(path)[0];
+    const VoxelLevelInfo info = read_infos(path)[0];
     MaterialReport report{options.output.value_or(path), info.materials, {}};
     if (edits) {
         report.materials = edit_materials(info.materials, options.set);

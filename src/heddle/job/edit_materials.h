@@ -11,7 +11,7 @@ namespace heddle::job {
 
 /// What becomes of one material of a .vdb. What else a material has went into the voxels for good.
 struct MaterialEdit {
-    std::string material; ///< its name, else its number from 0; as they are before all edits
+    std::string material{}; ///< its name, else its number from 0; as they are before all edits
     std::optional<std::string> name{};
     std::optional<Vec3f> albedo{};    ///< linear RGB in [0, 1]
     std::optional<float> roughness{}; ///< in [0, 1], as the next two
@@ -25,14 +25,14 @@ struct MaterialEdit {
 [[nodiscard]] const std::vector<std::string>& material_keys();
 
 struct EditMaterialsOptions {
-    std::vector<MaterialEdit> set;     ///< none: nothing is written
-    std::optional<std::string> output; ///< none: the file itself
+    std::vector<MaterialEdit> set{};     ///< none: nothing is written
+    std::optional<std::string> output{}; ///< none: the file itself
 };
 
 struct MaterialReport {
-    std::string file; ///< that has these materials
-    std::vector<Material> materials;
-    std::vector<std::string> notes;
+    std::string file{}; ///< that has these materials
+    std::vector<Material> materials{};
+    std::vector<std::string> notes{};
 };
 
 /// The materials as these edits leave them: all, or none where one is wrong.

@@ -16,7 +16,7 @@ namespace {
 class EditMaterials : public ::testing::Test {
 protected:
     void SetUp() override {
-        VoxelGrid grid = heddle::testing::make_helix(6.0, 1.0, 1);
+        MemoryLevel grid = heddle::testing::make_helix(6.0, 1.0, 1);
         grid.info().materials[0].name = "cotton";
         grid.info().materials[1].name = "";
         grid.info().materials[2].name = "a.b";

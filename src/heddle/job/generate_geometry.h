@@ -12,7 +12,7 @@ namespace heddle::job {
 struct GenerateReport {
     GenerateOptions options; ///< with every default in its place
     std::int64_t nodes = 0;  ///< control points of curves, or vertices of meshes
-    StageTimes stages;
+    StageTimes stages{};
 };
 
 /// The suffix of the format that holds what a kind makes: ".bcc", ".hair" or ".glb".

@@ -11,16 +11,19 @@ namespace heddle::job {
 
 /// How curves or meshes are read, and what becomes of them. Nothing is required.
 struct GeometryOptions {
-    std::optional<std::string> yarn; ///< preset, or path of a yarn file; none: a curve is one fiber
-    std::optional<double> yarn_radius; ///< scene units, > 0; none: what the file says, or a guess
-    std::int32_t repeat_x = 1;         ///< tiles of a .pyp along x, >= 1
+    std::optional<std::string>
+        yarn{}; ///< preset, or path of a yarn file; none: a curve is one fiber
+    std::optional<double> yarn_radius{}; ///< scene units, > 0; none: from the file, or a guess
+    std::int32_t repeat_x = 1;           ///< tiles of a .pyp along x, >= 1
     std::int32_t repeat_y = 1;
-    std::optional<std::int64_t> fibers; ///< in all of a yarn, needs `yarn`; none: as the model has
-    std::optional<double> fiber_radius; ///< of the yarn model, > 0; without `yarn`: of each curve,
-                                        ///< in scene units
-    std::optional<std::string> height_map; ///< path of an image that displaces every mesh
-    std::optional<double> height_scale;    ///< displacement of white, scene units; none: 1
-    std::optional<double> height_offset;   ///< displacement of black, scene units; none: 0
+    std::optional<std::int64_t>
+        fibers{}; ///< in all of a yarn, needs `yarn`; none: as the model has
+    std::optional<double>
+        fiber_radius{}; ///< of the yarn model, > 0; without `yarn`: of each curve,
+                        ///< in scene units
+    std::optional<std::string> height_map{}; ///< path of an image that displaces every mesh
+    std::optional<double> height_scale{};    ///< displacement of white, scene units; none: 1
+    std::optional<double> height_offset{};   ///< displacement of black, scene units; none: 0
 };
 
 /// Curves or meshes: of a file, or in memory.

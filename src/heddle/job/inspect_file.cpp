@@ -81,7 +81,7 @@ void plan_in(GeometryInfo& info,
 VolumeInfo inspect_volume(const std::string& path, const Progress& progress) {
     VolumeInfo info;
     info.levels = read_infos(path);
-    for (const VoxelGridInfo& level : info.levels) {
+    for (const VoxelLevelInfo& level : info.levels) {
         (void)read_vdb(path, level.level); // every voxel of every level is checked
         progress.check();
     }

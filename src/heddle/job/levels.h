@@ -1,7 +1,7 @@
 #pragma once
 
 #include <heddle/lod/build_levels.h>
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 #include <heddle/voxelize/plan.h>
 
 #include <cstdint>

@@ -45,12 +45,12 @@ public:
     }
 
     /// What is at a voxel index: a leaf, or how much around it is empty.
-    struct Place {
+    struct LeafLookup {
         std::uint32_t leaf = kNone;      ///< its number
         std::int32_t size = kTileVoxels; ///< edge of the aligned cube that the leaf fills, or that
                                          ///< is empty
     };
-    [[nodiscard]] Place find(Vec3i at) const {
+    [[nodiscard]] LeafLookup find(Vec3i at) const {
         const std::uint32_t tile = find_tile(tile_of(at));
         if (tile == kNone) return {};
         return {find_in_tile(tile, at), 8};

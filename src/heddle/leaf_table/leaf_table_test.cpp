@@ -68,7 +68,7 @@ TEST(LeafTable, WhatItCallsEmptyIsEmpty) {
     for (int i = 0; i < 500; ++i) {
         const auto index = [&] { return static_cast<int>(random.next() % 600) - 300; };
         const Vec3i at{index(), index(), index()};
-        const LeafTable<3>::Place place = table.find(at);
+        const LeafTable<3>::LeafLookup place = table.find(at);
         if (place.leaf != table.kNone) continue;
         const int mask = ~(place.size - 1);
         for (int x = at.x & mask; x < (at.x & mask) + place.size; x += 8) {

@@ -1,12 +1,12 @@
 #include <heddle/lod/build_levels.h>
 
 #include <heddle/base/error.h>
-#include <heddle/base/lender.h>
+#include <heddle/base/object_pool.h>
 #include <heddle/base/parallel.h>
 #include <heddle/lod/built_block.h>
 #include <heddle/lod/correlation.h>
 #include <heddle/lod/join_pieces.h>
-#include <heddle/voxel/block_keeper.h>
+#include <heddle/voxel/block_store.h>
 #include <heddle/voxel/index_box.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ CoverageRule rule_of(LodMethod method, bool with_columns) {
 }
 
 LevelOptions
-level_options(const LodOptions& options, const VoxelGridInfo& info, bool with_columns) {
+level_options(const LodOptions& options, const VoxelLevelInfo& info, bool with_columns) {
     LevelOptions out;
     out.fields = info.fields;
     out.fields.masks = false;
@@ -95,8 +95,8 @@ struct Workspace {
     }
 };
 
-std::unique_ptr<VoxelGrid> make_grid(const VoxelGridInfo& info, std::vector<VoxelBlock> blocks) {
-    auto grid = std::make_unique<VoxelGrid>();
+std::unique_ptr<MemoryLevel> make_grid(const VoxelLevelInfo& info, std::vector<VoxelBlock> blocks) {
+    auto grid = std::make_unique<MemoryLevel>();
     grid->info() = info;
     grid->info().voxel_count = 0;
     grid->info().lobe_count = 0;
@@ -151,15 +151,15 @@ int level_count(Vec3i lo, Vec3i hi) {
     return level;
 }
 
-struct LevelBuilder::State {
-    VoxelGridInfo info;
+struct LevelBuilder::Impl {
+    VoxelLevelInfo info;
     LevelOptions options;
     int top = 0; ///< coarsest level that is built, as far as blocks can tell
     std::vector<Vec3i> blocks;
-    std::vector<std::unique_ptr<BlockKeeper>> whole; ///< levels 1 to kWholeLeafLevel
-    std::vector<std::vector<VoxelBlock>> pieces;     ///< the levels above, from kWholeLeafLevel + 1
+    std::vector<std::unique_ptr<BlockStore>> whole; ///< levels 1 to kWholeLeafLevel
+    std::vector<std::vector<VoxelBlock>> pieces;    ///< the levels above, from kWholeLeafLevel + 1
     std::unique_ptr<UpperLevels> upper;
-    Lender<Workspace> workspaces;
+    ObjectPool<Workspace> workspaces;
     std::mutex mutex;
     IndexBox box;
     double seconds = 0.0;
@@ -178,7 +178,7 @@ struct LevelBuilder::State {
 
 struct LevelBuilder::Sample {
     std::mutex mutex;
-    Lender<Workspace> workspaces;
+    ObjectPool<Workspace> workspaces;
     std::array<LevelSize, kBlockLevel> level; ///< 1 to kBlockLevel
     std::int64_t workspace_bytes = 0;         ///< the largest
 };
@@ -193,11 +193,11 @@ LevelBuilder::LevelBuilder(const LodOptions& options, bool with_columns)
 
 LevelBuilder::~LevelBuilder() = default;
 
-void LevelBuilder::begin(const VoxelGridInfo& info,
+void LevelBuilder::begin(const VoxelLevelInfo& info,
                          std::span<const Vec3i> blocks,
                          const std::string& spool_dir) {
-    state_ = std::make_unique<State>();
-    State& s = *state_;
+    impl_ = std::make_unique<Impl>();
+    Impl& s = *impl_;
     s.info = info;
     s.options = level_options(options_, info, with_columns_);
     s.blocks.assign(blocks.begin(), blocks.end());
@@ -208,10 +208,10 @@ void LevelBuilder::begin(const VoxelGridInfo& info,
     s.top = blocks.empty() ? 0 : std::min(options_.max_levels, level_count(box.lo, box.hi));
     for (int l = 1; l <= s.top; ++l) {
         if (l <= kWholeLeafLevel) {
-            VoxelGridInfo of = info;
+            VoxelLevelInfo of = info;
             of.fields = s.options.fields;
             s.whole.push_back(
-                std::make_unique<BlockKeeper>(of, blocks.size(), !spool_dir.empty(), spool_dir));
+                std::make_unique<BlockStore>(of, blocks.size(), !spool_dir.empty(), spool_dir));
         } else if (l <= kBlockLevel) {
             s.pieces.emplace_back(blocks.size());
         }
@@ -226,7 +226,7 @@ void LevelBuilder::begin(const VoxelGridInfo& info,
 }
 
 void LevelBuilder::visit(std::size_t rank, const VoxelBlock& block) {
-    State& s = *state_;
+    Impl& s = *impl_;
     const auto start = std::chrono::steady_clock::now();
     std::unique_ptr<UpperVoxel> top;
     s.workspaces.with([&](Workspace& work) {
@@ -254,22 +254,22 @@ void LevelBuilder::visit(std::size_t rank, const VoxelBlock& block) {
 }
 
 const LevelOptions* LevelBuilder::options_of_built() const {
-    const LevelOptions& options = state_->options;
+    const LevelOptions& options = impl_->options;
     const bool can = options.merge.method == LodMethod::Moments &&
                      options.coverage == CoverageRule::Union && !options.fields.correlation;
     return can ? &options : nullptr;
 }
 
 int LevelBuilder::built_levels() const {
-    return std::min(state_->top, kBlockLevel);
+    return std::min(impl_->top, kBlockLevel);
 }
 
 bool LevelBuilder::wants_top() const {
-    return state_->top > kBlockLevel;
+    return impl_->top > kBlockLevel;
 }
 
 void LevelBuilder::accept(std::size_t rank, const VoxelBlock& block, BuiltBlock& built) {
-    State& s = *state_;
+    Impl& s = *impl_;
     const auto start = std::chrono::steady_clock::now();
     for (int l = 1; l <= built_levels(); ++l) {
         s.store(l, rank, built.level[static_cast<std::size_t>(l - 1)]);
@@ -284,12 +284,12 @@ void LevelBuilder::accept(std::size_t rank, const VoxelBlock& block, BuiltBlock&
 }
 
 double LevelBuilder::visit_seconds() const {
-    return state_ ? state_->seconds : 0.0;
+    return impl_ ? impl_->seconds : 0.0;
 }
 
 /// Fills what the voxels of a level share with their neighbours; its columns are dropped.
 void LevelBuilder::fill_shared(int level, std::span<VoxelBlock> blocks) {
-    State& s = *state_;
+    Impl& s = *impl_;
     if (!s.options.fields.correlation) return;
     const double edge = std::ldexp(static_cast<double>(s.options.lattice.subvoxels), level);
     if (level > kBlockLevel) {
@@ -302,8 +302,8 @@ void LevelBuilder::fill_shared(int level, std::span<VoxelBlock> blocks) {
     kept = {};
 }
 
-VoxelLevels LevelBuilder::finish(std::unique_ptr<VoxelSource> level0) {
-    State& s = *state_;
+VoxelLevels LevelBuilder::finish(std::unique_ptr<VoxelLevel> level0) {
+    Impl& s = *impl_;
     VoxelLevels levels;
     levels.push_back(std::move(level0));
     const int needed = s.box.empty() ? 0 : level_count(s.box.lo, s.box.hi);
@@ -311,7 +311,7 @@ VoxelLevels LevelBuilder::finish(std::unique_ptr<VoxelSource> level0) {
     std::vector<VoxelBlock>* const finest = levels[0]->blocks_in_memory();
     if (finest != nullptr && !has_correlation(*finest)) fill_shared(0, *finest);
     for (int l = 1; l <= top; ++l) {
-        std::unique_ptr<VoxelSource> made;
+        std::unique_ptr<VoxelLevel> made;
         if (l <= kWholeLeafLevel) {
             made = s.whole[static_cast<std::size_t>(l - 1)]->finish();
             if (auto* const blocks = made->blocks_in_memory()) fill_shared(l, *blocks);
@@ -323,7 +323,7 @@ VoxelLevels LevelBuilder::finish(std::unique_ptr<VoxelSource> level0) {
         levels.push_back(std::move(made));
     }
     for (std::size_t l = 0; l < levels.size(); ++l) {
-        VoxelGridInfo info = levels[l]->info();
+        VoxelLevelInfo info = levels[l]->info();
         info.level = static_cast<std::int32_t>(l);
         info.lattice = lattice_of_level(s.info.lattice, static_cast<int>(l));
         info.lod = top > 0 ? name_of(options_.method) : "";
@@ -397,7 +397,7 @@ std::int64_t predict_kept_columns(const LevelPlanInput& input,
 
 } // namespace
 
-void LevelBuilder::sample(const VoxelGridInfo& info, Vec3i index, const VoxelBlock& block) {
+void LevelBuilder::sample(const VoxelLevelInfo& info, Vec3i index, const VoxelBlock& block) {
     const LevelOptions options = level_options(options_, info, with_columns_);
     sample_->workspaces.with([&](Workspace& work) {
         const int last = std::min(options_.max_levels, kBlockLevel);

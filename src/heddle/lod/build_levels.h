@@ -42,11 +42,11 @@ public:
     LevelBuilder(const LevelBuilder&) = delete;
     LevelBuilder& operator=(const LevelBuilder&) = delete;
 
-    void begin(const VoxelGridInfo& info,
+    void begin(const VoxelLevelInfo& info,
                std::span<const Vec3i> blocks,
                const std::string& spool_dir) override;
     void visit(std::size_t rank, const VoxelBlock& block) override;
-    void sample(const VoxelGridInfo& info, Vec3i index, const VoxelBlock& block) override;
+    void sample(const VoxelLevelInfo& info, Vec3i index, const VoxelBlock& block) override;
     [[nodiscard]] LevelPlan plan(const LevelPlanInput& input) override;
 
     /// What levels that come by accept() are built with, after begin(). Null: blocks have to be visited,
@@ -65,7 +65,7 @@ public:
     /// The levels above 0, after the last visit.
     /// @param level0  the blocks that were visited
     /// @return        level 0 and those above it
-    [[nodiscard]] VoxelLevels finish(std::unique_ptr<VoxelSource> level0);
+    [[nodiscard]] VoxelLevels finish(std::unique_ptr<VoxelLevel> level0);
 
     /// Time that visits have taken so far, summed over threads, seconds.
     [[nodiscard]] double visit_seconds() const;
@@ -73,11 +73,11 @@ public:
 private:
     void fill_shared(int level, std::span<VoxelBlock> blocks);
 
-    struct State;
+    struct Impl;
     struct Sample;
     LodOptions options_;
     bool with_columns_;
-    std::unique_ptr<State> state_;
+    std::unique_ptr<Impl> impl_;
     std::unique_ptr<Sample> sample_;
 };
 

@@ -49,7 +49,7 @@ struct Truth {
     double weight = 0.0;
 };
 
-std::map<Key, Truth> pool(const VoxelSource& finest, int level) {
+std::map<Key, Truth> pool(const VoxelLevel& finest, int level) {
     const int n = finest.info().lattice.subvoxels;
     std::map<Key, Truth> truths;
     for_each_voxel(finest, [&](const BlockVoxel& v) {
@@ -166,7 +166,7 @@ TEST(BuildLevels, CorrelationIsThatOfTheUnionWithTheNextVoxel) {
 
 TEST(BuildLevels, EndWithAtMostTwoVoxelsAnAxis) {
     const VoxelLevels levels = build(swatch(), with_sums(150));
-    const auto widest = [](const VoxelSource& level) {
+    const auto widest = [](const VoxelLevel& level) {
         Vec3i lo{1 << 30, 1 << 30, 1 << 30};
         Vec3i hi = lo * -1;
         for_each_voxel(level, [&](const BlockVoxel& v) {
@@ -180,7 +180,7 @@ TEST(BuildLevels, EndWithAtMostTwoVoxelsAnAxis) {
     EXPECT_LE(widest(*levels.back()), 2);
     EXPECT_GT(widest(*levels[levels.size() - 2]), 2);
     for (std::size_t l = 0; l < levels.size(); ++l) {
-        const VoxelGridInfo& info = levels[l]->info();
+        const VoxelLevelInfo& info = levels[l]->info();
         EXPECT_EQ(info.level, static_cast<int>(l));
         EXPECT_EQ(info.lattice.subvoxels, 8 << l);
         EXPECT_EQ(info.lod, "moments");
@@ -301,7 +301,7 @@ TEST(BuildLevels, WhereALevelCannotHaveWhatNeighboursShareNoneHas) {
         block.moments = {};
         block.map_sums = {};
     }
-    VoxelGridInfo info = cut[0]->info();
+    VoxelLevelInfo info = cut[0]->info();
     info.fields.masks = false;
     cut[0]->set_info(info);
     const VoxelLevels levels[2] = {rebuild_levels(std::move(cut), {}, false, silent),
@@ -320,7 +320,7 @@ TEST(BuildLevels, WhereALevelCannotHaveWhatNeighboursShareNoneHas) {
 }
 
 TEST(BuildLevels, WithoutColumnsTransparenciesMultiplyAlongAndAverageAcross) {
-    auto grid = std::make_unique<VoxelGrid>();
+    auto grid = std::make_unique<MemoryLevel>();
     grid->info().materials.resize(1);
     VoxelBlock& block = grid->blocks.emplace_back();
     VoxelLeaf leaf{.origin = {0, 0, 0}};

@@ -35,7 +35,7 @@ struct Taken {
 struct TakenMethod {
     std::string name;
     std::vector<LevelErrors> levels;        ///< counts alone
-    std::vector<std::vector<Taken>> parent; ///< by level - 1, then as State::parents
+    std::vector<std::vector<Taken>> parent; ///< by level - 1, then as Impl::parents
 };
 
 /// What one method errs on one parent.
@@ -48,7 +48,7 @@ struct ParentErrors {
 using Key = std::pair<std::uint64_t, Vec3i>;
 
 /// Of all voxels those of least hash, in Z-order.
-std::vector<Vec3i> choose_voxels(const VoxelSource& level, int wanted, std::uint64_t seed) {
+std::vector<Vec3i> choose_voxels(const VoxelLevel& level, int wanted, std::uint64_t seed) {
     const auto n = static_cast<std::size_t>(wanted);
     const auto less = [](const Key& a, const Key& b) { return a.first < b.first; };
     std::vector<Key> all;
@@ -148,8 +148,8 @@ void sum_up(const std::vector<ParentErrors>& parents, bool with_coverage, LevelE
 
 } // namespace
 
-struct LevelReporter::State {
-    State(const VoxelSource& source, const VoxelLevels* levels, const LevelReportOptions& asked)
+struct LevelReporter::Impl {
+    Impl(const VoxelLevel& source, const VoxelLevels* levels, const LevelReportOptions& asked)
         : finest(source), file(levels), options(asked) {
         const std::vector<Material>& materials = source.info().materials;
         for (std::size_t m = 0; m < materials.size() && m < normals.size(); ++m) {
@@ -193,7 +193,7 @@ struct LevelReporter::State {
 };
 
 /// The true coverage of a level's parents; empty where it is not known.
-std::vector<std::array<std::uint16_t, 3>> LevelReporter::State::coverages(int level) const {
+std::vector<std::array<std::uint16_t, 3>> LevelReporter::Impl::coverages(int level) const {
     const std::vector<Vec3i>& at = parents[static_cast<std::size_t>(level - 1)];
     const CoverageTruth from = coverage_truth(level);
     if (from == CoverageTruth::None) return {};
@@ -213,7 +213,7 @@ std::vector<std::array<std::uint16_t, 3>> LevelReporter::State::coverages(int le
 
 /// Errors of each method, parent by parent.
 /// @param truths  in: all voxels' of the level below, or none; out: the parents'
-std::vector<std::vector<ParentErrors>> LevelReporter::State::measure_level(
+std::vector<std::vector<ParentErrors>> LevelReporter::Impl::measure_level(
     int level, std::vector<ParentTruth>& truths, Progress& progress) const {
     const auto l = static_cast<std::size_t>(level - 1);
     const std::vector<Vec3i>& at = parents[l];
@@ -241,19 +241,19 @@ std::vector<std::vector<ParentErrors>> LevelReporter::State::measure_level(
     return errors;
 }
 
-LevelReporter::LevelReporter(const VoxelSource& finest,
+LevelReporter::LevelReporter(const VoxelLevel& finest,
                              const VoxelLevels* file,
                              const LevelReportOptions& options)
-    : state_(std::make_unique<State>(finest, file, options)) {}
+    : impl_(std::make_unique<Impl>(finest, file, options)) {}
 
 LevelReporter::~LevelReporter() = default;
 
 CoverageTruth LevelReporter::coverage_truth() const {
-    return state_->coverage_truth(1);
+    return impl_->coverage_truth(1);
 }
 
 void LevelReporter::take(const std::string& name, const VoxelLevels& levels) {
-    State& s = *state_;
+    Impl& s = *impl_;
     const bool first = s.methods.empty();
     TakenMethod taken{name, {}, {}};
     for (std::size_t l = 1; l < levels.size(); ++l) {
@@ -261,7 +261,7 @@ void LevelReporter::take(const std::string& name, const VoxelLevels& levels) {
         if (first) {
             s.parents.push_back(choose_voxels(*levels[l], s.options.parents, s.options.seed));
         }
-        const VoxelGridInfo& info = levels[l]->info();
+        const VoxelLevelInfo& info = levels[l]->info();
         LevelErrors& row = taken.levels.emplace_back();
         row.level = static_cast<int>(l);
         row.voxels = info.voxel_count;
@@ -286,7 +286,7 @@ void LevelReporter::take(const std::string& name, const VoxelLevels& levels) {
 }
 
 std::vector<MethodErrors> LevelReporter::measure(Progress& progress) {
-    State& s = *state_;
+    Impl& s = *impl_;
     std::vector<MethodErrors> out;
     for (const TakenMethod& m : s.methods) out.push_back({m.name, m.levels});
     std::int64_t total = 0;
@@ -306,7 +306,7 @@ std::vector<MethodErrors> LevelReporter::measure(Progress& progress) {
 }
 
 std::vector<std::size_t>
-choose_blocks(const VoxelSource& source, std::int64_t voxels, std::uint64_t seed) {
+choose_blocks(const VoxelLevel& source, std::int64_t voxels, std::uint64_t seed) {
     std::vector<std::pair<std::uint64_t, std::size_t>> all;
     VoxelBlock scratch;
     for (std::size_t b = 0; b < source.block_count(); ++b) all.emplace_back(hash64(seed, b), b);

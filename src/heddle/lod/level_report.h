@@ -3,7 +3,7 @@
 #include <heddle/base/progress.h>
 #include <heddle/lod/rebuild_levels.h>
 #include <heddle/lod/voxel_index.h>
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 
 #include <array>
 #include <cstdint>
@@ -62,7 +62,7 @@ public:
     /// @param finest  level 0 of all that is taken; must outlive this
     /// @param file    the levels that coverage is compared with where there are no columns; may be
     ///                null, else must outlive this
-    LevelReporter(const VoxelSource& finest,
+    LevelReporter(const VoxelLevel& finest,
                   const VoxelLevels* file,
                   const LevelReportOptions& options);
     ~LevelReporter();
@@ -81,13 +81,13 @@ public:
     [[nodiscard]] CoverageTruth coverage_truth() const;
 
 private:
-    struct State;
-    std::unique_ptr<State> state_;
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
 };
 
 /// Blocks of a source, chosen by seed, that hold about so many voxels: a part to measure slow
 /// methods on. Ascending numbers; all blocks where there are fewer voxels.
 [[nodiscard]] std::vector<std::size_t>
-choose_blocks(const VoxelSource& source, std::int64_t voxels, std::uint64_t seed);
+choose_blocks(const VoxelLevel& source, std::int64_t voxels, std::uint64_t seed);
 
 } // namespace heddle

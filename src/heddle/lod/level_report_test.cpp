@@ -1,9 +1,9 @@
 #include <heddle/base/parallel.h>
 #include <heddle/lod/build_levels.h>
 #include <heddle/lod/level_report.h>
+#include <heddle/lod/level_subset.h>
 #include <heddle/lod/parent_truth.h>
 #include <heddle/lod/rebuild_levels.h>
-#include <heddle/lod/source_part.h>
 #include <heddle/sggx/moments.h>
 #include <heddle/sggx/pack.h>
 #include <heddle/voxel/test_grid.h>
@@ -52,7 +52,7 @@ std::vector<MethodErrors> report(const VoxelLevels& levels, int parents) {
 
 /// Two voxels of one parent, each with a lobe of its material, and a third to have a level above.
 VoxelLevels pair_of(const Lobe& a, const Lobe& b, MaterialKind second) {
-    auto grid = std::make_unique<VoxelGrid>();
+    auto grid = std::make_unique<MemoryLevel>();
     grid->info().materials.resize(2);
     grid->info().materials[0].kind = MaterialKind::Fiber;
     grid->info().materials[1].kind = second;
@@ -66,7 +66,7 @@ VoxelLevels pair_of(const Lobe& a, const Lobe& b, MaterialKind second) {
 }
 
 TEST(VoxelIndex, VisitsAllVoxelsBelowOneAndNoOther) {
-    const VoxelSource& finest = *file(false)[0];
+    const VoxelLevel& finest = *file(false)[0];
     const VoxelIndex index(finest);
     for (const int level : {0, 1, 2, 3, 4, 6}) {
         std::map<Key, std::set<Key>> below;
@@ -204,10 +204,10 @@ TEST(LevelReport, LevelsOfAnotherObjectAreRefused) {
 }
 
 TEST(ChooseBlocks, GivesAPartOfAboutTheSizeAskedForOrAll) {
-    const VoxelSource& finest = *file(false)[0];
+    const VoxelLevel& finest = *file(false)[0];
     const std::int64_t all = finest.info().voxel_count;
     const std::vector<std::size_t> some = choose_blocks(finest, all / 3, 1);
-    const SourcePart part(finest, some);
+    const LevelSubset part(finest, some);
     EXPECT_GE(part.info().voxel_count, all / 3);
     EXPECT_LT(part.info().voxel_count, all);
     EXPECT_TRUE(std::is_sorted(some.begin(), some.end()));

@@ -4,7 +4,7 @@
 #include <heddle/lod/merge_children.h>
 #include <heddle/voxel/lattice_units.h>
 #include <heddle/voxel/material_set.h>
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 
 #include <array>
 #include <cstdint>
@@ -28,9 +28,9 @@ enum class CoverageRule : std::uint8_t {
 struct LevelOptions {
     MergeOptions merge;
     CoverageRule coverage = CoverageRule::Union;
-    VoxelGridFields fields; ///< of the levels above 0: no masks
-    MaterialSet normals{};  ///< the materials whose lobes are of normals
-    Lattice lattice;        ///< of level 0
+    VoxelFields fields;    ///< of the levels above 0: no masks
+    MaterialSet normals{}; ///< the materials whose lobes are of normals
+    Lattice lattice;       ///< of level 0
     std::uint64_t seed = 0;
 };
 

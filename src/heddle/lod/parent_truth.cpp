@@ -13,10 +13,10 @@ namespace {
 /// Points over all lobes of a parent, but each gets its least. A parent's truth and the sum of its
 /// children's, whose lobes get more, are .016 apart in L1 (.07 at most); with twice the points .009.
 constexpr std::int64_t kPoints = 65536;
-constexpr std::int64_t kLeastPoints = 64;
+constexpr std::int64_t kMinPoints = 64;
 
 int points_of(std::int64_t lobes) {
-    return static_cast<int>(std::clamp(kPoints / lobes, kLeastPoints, std::int64_t{kLobePoints}));
+    return static_cast<int>(std::clamp(kPoints / lobes, kMinPoints, std::int64_t{kLobePoints}));
 }
 
 /// The lobe whose moment is what was pooled: S before it was packed.

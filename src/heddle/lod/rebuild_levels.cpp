@@ -15,7 +15,7 @@ namespace {
 /// Puts what `old` holds of its voxels' columns, coverage and what neighbours share, in the place of
 /// what was made of level 0's.
 /// @throws Error  BadFile: the old level has other voxels
-void keep_columns(const VoxelSource& old, VoxelSource& made) {
+void keep_columns(const VoxelLevel& old, VoxelLevel& made) {
     std::vector<VoxelBlock>* const blocks = made.blocks_in_memory();
     if (blocks == nullptr) return;
     LeafTable<3> table;
@@ -28,8 +28,8 @@ void keep_columns(const VoxelSource& old, VoxelSource& made) {
             leaves.emplace_back(b, i);
         }
     }
-    VoxelGridInfo info = made.info();
-    VoxelGridFields& fields = info.fields;
+    VoxelLevelInfo info = made.info();
+    VoxelFields& fields = info.fields;
     fields.footprints = old.info().fields.footprints;
     fields.correlation = old.info().fields.correlation;
     made.set_info(info);
@@ -63,8 +63,8 @@ void keep_columns(const VoxelSource& old, VoxelSource& made) {
 }
 
 /// Takes away what neighbours share, where levels above cannot have it.
-void drop_shared(VoxelSource& level) {
-    VoxelGridInfo info = level.info();
+void drop_shared(VoxelLevel& level) {
+    VoxelLevelInfo info = level.info();
     info.fields.footprints = 0;
     info.fields.correlation = false;
     level.set_info(std::move(info));
@@ -81,7 +81,7 @@ struct SourceOrder {
     std::vector<std::size_t> number;
     std::vector<Vec3i> index;
 
-    explicit SourceOrder(const VoxelSource& source) {
+    explicit SourceOrder(const VoxelLevel& source) {
         std::vector<std::pair<Vec3i, std::size_t>> all;
         VoxelBlock scratch;
         for (std::size_t b = 0; b < source.block_count(); ++b) {
@@ -109,7 +109,7 @@ struct SourceOrder {
 
 VoxelLevels
 rebuild_levels(VoxelLevels old, const LodOptions& options, bool exact, Progress& progress) {
-    const VoxelSource& finest = *old.at(0);
+    const VoxelLevel& finest = *old.at(0);
     const bool masks = finest.info().fields.masks;
     if (exact && !masks) {
         throw Error(ErrorCode::InvalidArgument,
@@ -130,7 +130,7 @@ rebuild_levels(VoxelLevels old, const LodOptions& options, bool exact, Progress&
     VoxelLevels levels = builder.finish(std::move(old[0]));
     const bool naive = options.method == LodMethod::Naive;
     for (std::size_t l = 0; l < levels.size(); ++l) {
-        VoxelGridInfo info = levels[l]->info();
+        VoxelLevelInfo info = levels[l]->info();
         info.approximate = !masks && levels.size() > 1;
         levels[l]->set_info(std::move(info));
         if (masks || naive || l == 0 || l >= old.size()) continue;

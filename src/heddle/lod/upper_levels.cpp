@@ -143,7 +143,7 @@ UpperLevels::UpperLevels(std::span<const Vec3i> blocks,
             for (std::size_t n = 0; n < nodes.size(); ++n) nodes[n].parent = of_nodes[n];
         }
         parents = &of_nodes;
-        Level& made = levels_.emplace_back();
+        NodeLevel& made = levels_.emplace_back();
         made.nodes = std::vector<Node>(here.size());
         for (std::size_t n = 0; n < here.size(); ++n) {
             made.nodes[n].index = here[n];

@@ -54,7 +54,7 @@ private:
         std::array<std::unique_ptr<UpperVoxel>, 8> child;
         std::array<UpperVoxel::Runs, 3> kept;
     };
-    struct Level {
+    struct NodeLevel {
         std::vector<Node> nodes;
     };
     [[nodiscard]] std::unique_ptr<UpperVoxel> close(Node& node, int level, std::size_t number);
@@ -63,7 +63,7 @@ private:
     Store store_;
     std::vector<Vec3i> blocks_;
     std::vector<std::uint32_t> parent_of_block_;
-    std::vector<Level> levels_; ///< from kBlockLevel + 1 on
+    std::vector<NodeLevel> levels_; ///< from kBlockLevel + 1 on
 };
 
 /// Takes the one voxel of a block's level kBlockLevel out of it; null where there is none.

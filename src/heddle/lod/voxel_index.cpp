@@ -6,7 +6,7 @@
 
 namespace heddle {
 
-VoxelIndex::VoxelIndex(const VoxelSource& source) : source_(source) {
+VoxelIndex::VoxelIndex(const VoxelLevel& source) : source_(source) {
     VoxelBlock scratch;
     for (std::size_t b = 0; b < source.block_count(); ++b) {
         const VoxelBlock& block = source.block(b, scratch);
@@ -18,13 +18,13 @@ VoxelIndex::VoxelIndex(const VoxelSource& source) : source_(source) {
         }
     }
     std::sort(leaves_.begin(), leaves_.end(),
-              [](const Leaf& a, const Leaf& b) { return z_order_less(a.cell, b.cell); });
+              [](const LeafEntry& a, const LeafEntry& b) { return z_order_less(a.cell, b.cell); });
 }
 
 std::size_t VoxelIndex::first_in(Vec3i cell) const {
     const auto at =
         std::lower_bound(leaves_.begin(), leaves_.end(), cell,
-                         [](const Leaf& a, Vec3i b) { return z_order_less(a.cell, b); });
+                         [](const LeafEntry& a, Vec3i b) { return z_order_less(a.cell, b); });
     return static_cast<std::size_t>(at - leaves_.begin());
 }
 

@@ -13,9 +13,9 @@ namespace heddle {
 class VoxelIndex {
 public:
     /// @param source  must outlive this
-    explicit VoxelIndex(const VoxelSource& source);
+    explicit VoxelIndex(const VoxelLevel& source);
 
-    [[nodiscard]] const VoxelSource& source() const { return source_; }
+    [[nodiscard]] const VoxelLevel& source() const { return source_; }
 
     /// Calls visit(BlockVoxel) for all voxels of the source that lie in one `levels` levels above it, in
     /// a fixed order. Safe from several threads.
@@ -40,7 +40,7 @@ public:
     }
 
 private:
-    struct Leaf {
+    struct LeafEntry {
         Vec3i cell; ///< its origin / 8
         std::uint32_t block = 0;
         std::uint32_t leaf = 0;
@@ -50,8 +50,8 @@ private:
     [[nodiscard]] static bool is_in(Vec3i leaf, Vec3i cell, int up) {
         return Vec3i{leaf.x >> up, leaf.y >> up, leaf.z >> up} == cell;
     }
-    const VoxelSource& source_;
-    std::vector<Leaf> leaves_;
+    const VoxelLevel& source_;
+    std::vector<LeafEntry> leaves_;
 };
 
 } // namespace heddle

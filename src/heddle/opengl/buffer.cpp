@@ -10,7 +10,7 @@ namespace heddle::opengl {
 namespace {
 
 /// An empty storage block cannot be bound.
-constexpr std::size_t kLeastBytes = 16;
+constexpr std::size_t kMinBytes = 16;
 
 std::uint32_t make(const char* name, std::size_t bytes, const void* from) {
     GLuint id = 0;
@@ -26,7 +26,7 @@ std::uint32_t make(const char* name, std::size_t bytes, const void* from) {
 } // namespace
 
 Buffer::Buffer(const char* name, std::size_t bytes)
-    : id_(make(name, std::max(bytes, kLeastBytes), nullptr)), bytes_(bytes) {}
+    : id_(make(name, std::max(bytes, kMinBytes), nullptr)), bytes_(bytes) {}
 
 Buffer::Buffer(const char* name, std::span<const std::byte> bytes) : Buffer(name, bytes.size()) {
     write(bytes);

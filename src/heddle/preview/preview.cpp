@@ -4,7 +4,7 @@
 #include <heddle/base/parallel.h>
 #include <heddle/base/random.h>
 #include <heddle/geom/color.h>
-#include <heddle/preview/scene.h>
+#include <heddle/preview/preview_volume.h>
 #include <heddle/preview/sheet.h>
 
 #include <algorithm>
@@ -18,9 +18,9 @@ using preview::kClosing;
 using preview::kFlatWidth;
 using preview::kOpaque;
 using preview::kSheetGap;
-using preview::Leaf;
-using preview::Scene;
-using preview::Voxel;
+using preview::PreviewLeaf;
+using preview::PreviewVolume;
+using preview::PreviewVoxel;
 
 /// A ray whose direction is in double, where the renderer's has floats: it starts far from what it
 /// meets, and steps through cells of 128 voxels.
@@ -47,13 +47,13 @@ struct Camera {
     }
 };
 
-int guess_up(const Scene& scene) {
+int guess_up(const PreviewVolume& scene) {
     const Vec3d s = scene.bounds_hi() - scene.bounds_lo();
     return s.z < 0.5 * s.x && s.z < 0.5 * s.y ? 2
                                               : 1; // cloth that lies on the ground of a z-up scene
 }
 
-Camera make_camera(const Scene& scene, const PreviewOptions& options) {
+Camera make_camera(const PreviewVolume& scene, const PreviewOptions& options) {
     Vec3d up_axis;
     const int up = options.up_axis >= 0 ? options.up_axis : guess_up(scene);
     up_axis[up] = 1.0;
@@ -137,7 +137,7 @@ Vec3f heat(float x) { // blue, green, yellow, red
 /// Sums what a ray meets, front to back.
 class Painter {
 public:
-    Painter(const Scene& scene, const PreviewOptions& options, Vec3d back)
+    Painter(const PreviewVolume& scene, const PreviewOptions& options, Vec3d back)
         : scene_(scene), options_(options), eye_(normalize(to_float(back))) {}
 
     /// @return  linear premultiplied colour, and alpha
@@ -149,14 +149,14 @@ public:
         }
         double t = 0.0, t_end = 0.0;
         if (!clip(p, d, t, t_end)) return;
-        State state{.p = p, .d = d, .weight = to_float(d), .color = color, .through = 1.0f};
-        walk_cells(state, t, t_end);
+        RayState state{.p = p, .d = d, .weight = to_float(d), .color = color, .through = 1.0f};
+        traverse_cells(state, t, t_end);
         color = state.color;
         alpha = 1.0f - state.through;
     }
 
 private:
-    struct State {
+    struct RayState {
         Vec3d p, d;   ///< voxels
         Vec3f weight; ///< d: what a voxel's depth along a counts per unit of t
         Vec3f color;
@@ -180,33 +180,34 @@ private:
         return t < t_end;
     }
 
-    void walk_cells(State& s, double t, double t_end) const {
+    void traverse_cells(RayState& s, double t, double t_end) const {
         const Vec3i lo{scene_.lo().x >> 4, scene_.lo().y >> 4, scene_.lo().z >> 4};
         const Vec3i hi{scene_.hi().x >> 4, scene_.hi().y >> 4, scene_.hi().z >> 4};
         Walk walk(s.p * (1.0 / 128.0), s.d * (1.0 / 128.0), t, lo, hi);
         while (t < t_end && s.through > kOpaque) {
             const double leave = std::min(walk.end(), t_end);
             const std::uint32_t tile = scene_.table().find_tile(walk.at);
-            if (tile != Scene::Table::kNone) walk_leaves(s, tile, walk.at, t, leave);
+            if (tile != PreviewVolume::Table::kNone) traverse_leaves(s, tile, walk.at, t, leave);
             t = std::max(t, leave);
             if (leave >= t_end || !walk.advance(lo, hi)) break;
         }
     }
 
-    void walk_leaves(State& s, std::uint32_t tile, Vec3i at, double t, double t_end) const {
+    void traverse_leaves(RayState& s, std::uint32_t tile, Vec3i at, double t, double t_end) const {
         const Vec3i lo = at * 16;
         const Vec3i hi = lo + Vec3i{15, 15, 15};
         Walk walk(s.p * 0.125, s.d * 0.125, t, lo, hi);
         while (t < t_end && s.through > kOpaque) {
             const double leave = std::min(walk.end(), t_end);
-            const Leaf* leaf = scene_.leaf(tile, walk.at);
-            if (leaf != nullptr) walk_voxels(s, *leaf, walk.at, t, leave);
+            const PreviewLeaf* leaf = scene_.leaf(tile, walk.at);
+            if (leaf != nullptr) traverse_leaf(s, *leaf, walk.at, t, leave);
             t = std::max(t, leave);
             if (leave >= t_end || !walk.advance(lo, hi)) break;
         }
     }
 
-    void walk_voxels(State& s, const Leaf& leaf, Vec3i at, double t, double t_end) const {
+    void
+    traverse_leaf(RayState& s, const PreviewLeaf& leaf, Vec3i at, double t, double t_end) const {
         const Vec3i lo = at * 8;
         const Vec3i hi = lo + Vec3i{7, 7, 7};
         Walk walk(s.p, s.d, t, lo, hi);
@@ -219,7 +220,7 @@ private:
         }
     }
 
-    void add(State& s, const Voxel& v, Vec3i leaf, double t, double leave) const {
+    void add(RayState& s, const PreviewVoxel& v, Vec3i leaf, double t, double leave) const {
         const Vec3f k = Vec3f{static_cast<float>(v.depth[0]), static_cast<float>(v.depth[1]),
                               static_cast<float>(v.depth[2])} *
                         (preview::kMaxDepth / 255.0f);
@@ -238,7 +239,8 @@ private:
     /// the voxel's, with A n_a = c_a h^2 seen along the axes. A surface is met wherever the ray enters
     /// the voxel, and voxels of one surface share it: what one of them covers, the next does not. As
     /// a medium, a surface at a slant would have holes at every step from layer to layer.
-    float hidden_by_sheet(State& s, const Voxel& v, Vec3f k, double t, double leave) const {
+    float
+    hidden_by_sheet(RayState& s, const PreviewVoxel& v, Vec3f k, double t, double leave) const {
         float surface = 0.0f;
         float voxel = 0.0f;
         for (int a = 0; a < 3; ++a) {
@@ -256,7 +258,7 @@ private:
         return hidden;
     }
 
-    [[nodiscard]] Vec3f shade(const Voxel& v, Vec3i leaf) const {
+    [[nodiscard]] Vec3f shade(const PreviewVoxel& v, Vec3i leaf) const {
         const Vec3f axis =
             normalize(Vec3f{static_cast<float>(v.axis[0]), static_cast<float>(v.axis[1]),
                             static_cast<float>(v.axis[2])});
@@ -276,7 +278,7 @@ private:
 
     /// A light at the eye: sin to a fiber's tangent [Kajiya 1989], |cos| to a normal; both less for
     /// wide lobes, and a highlight on what is narrow.
-    [[nodiscard]] Vec3f lit(const Voxel& v, Vec3f axis) const {
+    [[nodiscard]] Vec3f lit(const PreviewVoxel& v, Vec3f axis) const {
         const Vec3f root{static_cast<float>(v.color[0]) / 255.0f,
                          static_cast<float>(v.color[1]) / 255.0f,
                          static_cast<float>(v.color[2]) / 255.0f};
@@ -290,7 +292,7 @@ private:
         return root * root * diffuse + Vec3f{shine, shine, shine};
     }
 
-    const Scene& scene_;
+    const PreviewVolume& scene_;
     const PreviewOptions& options_;
     Vec3f eye_;
 };
@@ -328,9 +330,9 @@ void check_options(const PreviewOptions& o) {
 } // namespace
 
 PreviewImage
-render_preview(const VoxelSource& source, const PreviewOptions& options, Progress& progress) {
+render_preview(const VoxelLevel& source, const PreviewOptions& options, Progress& progress) {
     check_options(options);
-    const Scene scene(source, options.color == PreviewColor::Tangent, progress);
+    const PreviewVolume scene(source, options.color == PreviewColor::Tangent, progress);
     PreviewImage image{options.width, options.height, {}};
     const auto width = static_cast<std::size_t>(options.width);
     const auto height = static_cast<std::size_t>(options.height);

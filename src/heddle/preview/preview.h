@@ -1,7 +1,7 @@
 #pragma once
 
 #include <heddle/base/progress.h>
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 
 #include <cstdint>
 #include <optional>
@@ -48,6 +48,6 @@ struct PreviewImage {
 /// up what they hide; all others multiply what they let through. Memory: 12 bytes a voxel and 170 bytes a leaf.
 /// @throws Error  InvalidArgument: a size, direction or angle out of range; Cancelled
 [[nodiscard]] PreviewImage
-render_preview(const VoxelSource& source, const PreviewOptions& options, Progress& progress);
+render_preview(const VoxelLevel& source, const PreviewOptions& options, Progress& progress);
 
 } // namespace heddle

@@ -21,14 +21,14 @@ Pixel pixel(const PreviewImage& image, int x, int y) {
 }
 
 /// Voxels of one material, coverage c on every axis.
-VoxelGrid
+MemoryLevel
 make_voxels(const std::vector<Vec3i>& at, double c, Vec3f direction = {1.0f, 0.0f, 0.0f}) {
     testing::VoxelMap voxels;
     const auto u = static_cast<std::uint16_t>(std::lround(c * 65535.0));
     for (const Vec3i i : at) {
         voxels[{i.x, i.y, i.z}] = {{u, u, u, u}, {{testing::needle(direction), 255, 0}}};
     }
-    VoxelGrid grid;
+    MemoryLevel grid;
     grid.info().materials.resize(1);
     grid.info().materials[0].kind = MaterialKind::Fiber;
     grid.blocks = testing::make_blocks(voxels);
@@ -81,13 +81,13 @@ TEST(Preview, LayersMultiplyWhatTheyLetThrough) {
 
 TEST(Preview, NeighboursOfOneSheetAddUpWhatTheyHide) {
     Progress progress;
-    VoxelGrid sheet = make_voxels(box(16, 16, 2), 0.5, {0.0f, 0.0f, 1.0f});
+    MemoryLevel sheet = make_voxels(box(16, 16, 2), 0.5, {0.0f, 0.0f, 1.0f});
     sheet.info().materials[0].kind = MaterialKind::Surface; // the needle is of normals: flat
     EXPECT_GT(pixel(render_preview(sheet, small({0, 0, 1}), progress), 16, 16)[3], 250);
     // two sheets with air between them multiply, as all else does
     std::vector<Vec3i> apart = box(16, 16, 1);
     for (const Vec3i i : box(16, 16, 1)) apart.push_back({i.x, i.y, 3});
-    VoxelGrid two = make_voxels(apart, 0.5, {0.0f, 0.0f, 1.0f});
+    MemoryLevel two = make_voxels(apart, 0.5, {0.0f, 0.0f, 1.0f});
     two.info().materials[0].kind = MaterialKind::Surface;
     const int alpha = pixel(render_preview(two, small({0, 0, 1}), progress), 16, 16)[3];
     EXPECT_GT(alpha, 184); // 0.75 and a little more: surfaces are to look closed
@@ -114,7 +114,7 @@ TEST(Preview, TheNearerVoxelIsSeenFromEachSide) {
             }
         }
     }
-    VoxelGrid grid;
+    MemoryLevel grid;
     grid.info().materials.resize(2);
     grid.info().materials[0].albedo = {1.0f, 0.0f, 0.0f};
     grid.info().materials[1].albedo = {0.0f, 0.0f, 1.0f};
@@ -158,7 +158,7 @@ TEST(Preview, TangentColourIsTheDirectionWithoutItsSign) {
 
 TEST(Preview, SameBytesOnOneAndManyThreads) {
     Progress progress;
-    const VoxelGrid grid = testing::make_helix(12.0, 2.0, 2);
+    const MemoryLevel grid = testing::make_helix(12.0, 2.0, 2);
     PreviewOptions options;
     options.width = 61;
     options.height = 40;
@@ -174,7 +174,7 @@ TEST(Preview, SameBytesOnOneAndManyThreads) {
 
 TEST(Preview, EveryDirectionAndEmptyInputGiveAPicture) {
     Progress progress;
-    const VoxelGrid grid = testing::make_helix(6.0, 1.5, 1);
+    const MemoryLevel grid = testing::make_helix(6.0, 1.5, 1);
     for (int i = 0; i < 27; ++i) {
         const Vec3d from{i % 3 - 1.0, i / 3 % 3 - 1.0, i / 9 - 1.0};
         if (length(from) == 0.0) continue;
@@ -183,13 +183,13 @@ TEST(Preview, EveryDirectionAndEmptyInputGiveAPicture) {
         for (std::size_t k = 3; k < image.rgba.size(); k += 4) seen += image.rgba[k] > 128 ? 1 : 0;
         EXPECT_GT(seen, 40) << from.x << ' ' << from.y << ' ' << from.z;
     }
-    const PreviewImage none = render_preview(VoxelGrid{}, PreviewOptions{}, progress);
+    const PreviewImage none = render_preview(MemoryLevel{}, PreviewOptions{}, progress);
     EXPECT_EQ(pixel(none, 5, 5), (Pixel{255, 255, 255, 255}));
 }
 
 TEST(Preview, BadOptionsAndCancelAreErrors) {
     Progress progress;
-    const VoxelGrid grid = make_voxels(box(2, 2, 2), 0.5);
+    const MemoryLevel grid = make_voxels(box(2, 2, 2), 0.5);
     PreviewOptions options = small({0, 0, 0});
     EXPECT_THROW((void)render_preview(grid, options, progress), Error);
     options = small({0, 0, 1});

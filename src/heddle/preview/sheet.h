@@ -7,7 +7,7 @@ namespace heddle::preview {
 
 /// Light that is less than this share of what there was is not followed.
 inline constexpr float kOpaque = 0.004f;
-/// Voxel::width below which a lobe of normals is a sheet, not foliage.
+/// PreviewVoxel::width below which a lobe of normals is a sheet, not foliage.
 inline constexpr int kFlatWidth = 96;
 /// How much of itself a sheet's voxel hides: more than what is exact in the mean, as the parts that
 /// a ray meets do not add up to just 1. At 1 slanted surfaces look moth-eaten, at 1.5 they are

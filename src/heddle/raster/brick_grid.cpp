@@ -13,8 +13,8 @@
 namespace heddle::raster {
 namespace {
 
-constexpr std::uint64_t kMostBricks = std::uint64_t{1} << 25; ///< a table of 128 MiB
-constexpr std::int64_t kMostPixels = std::int64_t{1} << 22;   ///< centres exact in single precision
+constexpr std::uint64_t kMaxBricks = std::uint64_t{1} << 25; ///< a table of 128 MiB
+constexpr std::int64_t kMaxPixels = std::int64_t{1} << 22;   ///< centres exact in single precision
 
 struct ZOrder {
     bool operator()(const Vec3i& a, const Vec3i& b) const { return z_order_less(a, b); }
@@ -33,11 +33,11 @@ BrickGrid::BrickGrid(const LatticeUnits& units_in, Vec3i origin_in, Vec3i first,
         lo[a] = floor_div(voxel_lo[a], kBrickEdge);
         count[a] = floor_div(voxel_hi[a] - 1, kBrickEdge) - lo[a] + 1;
         const std::int64_t pixels = std::int64_t{std::max(-voxel_lo[a], voxel_hi[a])} * units.n;
-        if (pixels > kMostPixels) {
+        if (pixels > kMaxPixels) {
             too_large(str(pixels, " subvoxels along axis ", "xyz"[a], " (limit 2^22)"));
         }
     }
-    if (size() > kMostBricks) {
+    if (size() > kMaxBricks) {
         too_large(str("a box of ", size(), " bricks of 8 x 8 x 8 voxels (limit 2^25)"));
     }
 }

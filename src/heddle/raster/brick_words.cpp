@@ -50,7 +50,7 @@ void set_density(VoxelSums& voxel, std::uint32_t density, int n) {
     }
 }
 
-void add_lobe(VoxelWords words, const WordForm& form, BlockSums& sums, VoxelSums& voxel) {
+void add_lobe(VoxelWords words, const WordFormat& form, BlockSums& sums, VoxelSums& voxel) {
     // three passes saw the same fibers
     const int up = 20 - form.weight_bits;
     const auto scaled = [&](std::uint32_t word) {
@@ -77,7 +77,7 @@ void add_lobe(VoxelWords words, const WordForm& form, BlockSums& sums, VoxelSums
     maps.anisotropy += 255 * weight;
 }
 
-void add_voxel(VoxelWords words, const WordForm& form, Vec3i at, BlockSums& sums) {
+void add_voxel(VoxelWords words, const WordFormat& form, Vec3i at, BlockSums& sums) {
     if (words[kWeightWord] == 0) return;
     const bool columns = form.composition == Composition::Accumulate;
     const std::uint32_t density = density_of(words, form.composition);
@@ -128,7 +128,7 @@ std::uint64_t spread_columns(int count, int columns) {
 }
 
 void add_brick(std::span<const std::uint32_t> words,
-               const WordForm& form,
+               const WordFormat& form,
                Vec3i corner,
                BlockSums& sums) {
     for (std::size_t cell = 0; cell < 512; ++cell) {

@@ -14,20 +14,20 @@ constexpr std::size_t kVoxelWords = 32;
 constexpr std::size_t kBrickWords = 512 * kVoxelWords;
 
 /// What turns words into the sampling voxelizer's sums.
-struct WordForm {
+struct WordFormat {
     int subvoxels = 8;
     Composition composition = Composition::Accumulate;
     /// a directed area of 1 unit^2 weighs 2^weight_bits, in each of three passes
     int weight_bits = 0;
     std::uint32_t material = 0;
-    friend bool operator==(const WordForm&, const WordForm&) = default;
+    friend bool operator==(const WordFormat&, const WordFormat&) = default;
 };
 
 /// Adds a brick's voxels to a block's sums.
 /// @param words   kBrickWords of them
 /// @param corner  of the brick, relative to the block's lo; voxels outside the block are empty
 void add_brick(std::span<const std::uint32_t> words,
-               const WordForm& form,
+               const WordFormat& form,
                Vec3i corner,
                BlockSums& sums);
 

@@ -4,7 +4,7 @@
 
 namespace heddle::raster {
 
-/// GLSL, all stages: the stretch seen along `axis`, as a rectangle that holds it. Needs
+/// GLSL, all stages: the slab seen along `axis`, as a rectangle that holds it. Needs
 /// kStretchGlsl, in fragments kSlabGlsl.
 inline constexpr std::string_view kRectangleGlsl = R"(
 uniform int axis;
@@ -39,10 +39,10 @@ Rectangle rectangle_of_slab(float pad) {
 }
 )";
 
-/// GLSL, vertex, last: a quad that finds the stretch's pixels.
+/// GLSL, vertex, last: a quad that finds the slab's pixels.
 inline constexpr std::string_view kQuadGlsl = R"(
 void main() {
-    give_stretch();
+    current_slab();
     Rectangle r = rectangle_of_slab(kFoundPad);
     vec2 at = r.middle + corner().x * r.size.x * r.way +
               corner().y * r.size.y * vec2(-r.way.y, r.way.x);

@@ -1,5 +1,5 @@
 #include <heddle/geom/generate.h>
-#include <heddle/raster/draw_bricks.h>
+#include <heddle/raster/rasterize_bricks.h>
 #include <heddle/raster/test_difference.h>
 #include <heddle/raster/voxelize_slices.h>
 
@@ -114,13 +114,13 @@ TEST(RasterPath, WhereNoneIsChosenBothAreTriedAndTheDrawnSumsAreTheirs) {
         slice::place_slices(context, yarn, sections, units, {});
     const std::vector<TouchedBlock> blocks =
         find_blocks(context, make_mark_program(), grid, chunks);
-    SlabKit kit(context, RasterPath::Fragment, Composition::Accumulate);
+    SlabResources kit(context, RasterPath::Fragment, Composition::Accumulate);
     const slice::SectionTextures textures(sections);
-    BrickDrawer drawer(context, kit, grid, textures, chunks,
-                       {.weight_bits = 8, .memory_bytes = 1 << 26, .bricks = 1 << 20});
-    const DrawnBatch fragment = drawer.draw(blocks, 0);
+    BrickRasterizer rasterizer(context, kit, grid, textures, chunks,
+                               {.weight_bits = 8, .memory_bytes = 1 << 26, .bricks = 1 << 20});
+    const RasterBatch fragment = rasterizer.draw(blocks, 0);
     kit.choose(RasterPath::Auto);
-    const DrawnBatch tried = drawer.draw(blocks, 0);
+    const RasterBatch tried = rasterizer.draw(blocks, 0);
     EXPECT_NE(kit.path(), RasterPath::Auto);
     ASSERT_EQ(tried.materials.size(), 1u);
     EXPECT_TRUE(tried.materials == fragment.materials);

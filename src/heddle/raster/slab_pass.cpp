@@ -18,7 +18,7 @@ namespace heddle::raster {
 namespace {
 
 constexpr std::size_t kGroupsOffset = 4 * sizeof(std::uint32_t); ///< in kListGlsl's Draw
-constexpr std::size_t kMostOffset = 7 * sizeof(std::uint32_t);
+constexpr std::size_t kMaxOffset = 7 * sizeof(std::uint32_t);
 /// these two: as kSlabLanesGlsl and kSlabLoopGlsl have them
 constexpr std::uint32_t kSlabLanes = 8;
 constexpr std::uint32_t kTurns = 64;
@@ -58,7 +58,7 @@ SlabPass::SlabPass(RasterPath path, Composition composition)
     program_.set("policy", static_cast<std::int32_t>(composition));
 }
 
-void SlabPass::draw(const opengl::Buffer& command, const SlabView& view) const {
+void SlabPass::draw(const opengl::Buffer& command, const RasterWindow& view) const {
     program_.use();
     program_.set("view_lo", view.lo);
     program_.set("view_size", view.size);
@@ -71,24 +71,26 @@ void SlabPass::draw(const opengl::Buffer& command, const SlabView& view) const {
             continue;
         }
         frame_.bind(axis == 0 ? view.size.y : view.size.x, axis == 2 ? view.size.y : view.size.z);
-        opengl::EmptyFrame::draw_indirect();
+        opengl::EmptyFramebuffer::draw_indirect();
     }
 }
 
 /// As many dispatches as the largest slab needs, which the first finds out.
 void SlabPass::walk(const opengl::Buffer& command) const {
     std::array<std::uint32_t, 1> most{};
-    command.write(std::as_bytes(std::span(most)), kMostOffset);
+    command.write(std::as_bytes(std::span(most)), kMaxOffset);
     for (std::uint32_t turn = 0; turn == 0 || turn * kSlabLanes < most[0]; turn += kTurns) {
         program_.set("first_turn", static_cast<std::int32_t>(turn));
         program_.dispatch_indirect(kGroupsOffset);
         if (turn > 0) continue;
         opengl::finish_writes();
-        command.read(std::as_writable_bytes(std::span(most)), kMostOffset);
+        command.read(std::as_writable_bytes(std::span(most)), kMaxOffset);
     }
 }
 
-SlabKit::SlabKit(const opengl::Context& context, RasterPath path, Composition composition)
+SlabResources::SlabResources(const opengl::Context& context,
+                             RasterPath path,
+                             Composition composition)
     : composition_(composition),
       path_(resolve(path, context)),
       list_(opengl::Program::compute(
@@ -96,13 +98,13 @@ SlabKit::SlabKit(const opengl::Context& context, RasterPath path, Composition co
           join({slice::kSliceGlsl, slice::kSpanGlsl, kBrickGlsl, kSlabLanesGlsl}),
           kListGlsl)) {}
 
-const SlabPass& SlabKit::pass(RasterPath path) {
+const SlabPass& SlabResources::pass(RasterPath path) {
     std::optional<SlabPass>& pass = path == RasterPath::Compute ? compute_ : fragment_;
     if (!pass) pass.emplace(path, composition_);
     return *pass;
 }
 
-const opengl::Buffer& SlabKit::pool(std::size_t bytes) {
+const opengl::Buffer& SlabResources::pool(std::size_t bytes) {
     // frames differ by some bricks, and all of it is cleared for each batch
     const std::size_t held = pool_ ? pool_->byte_count() : 0;
     if (held < bytes || held > 2 * bytes) {

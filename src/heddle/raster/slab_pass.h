@@ -1,6 +1,6 @@
 #pragma once
 
-#include <heddle/opengl/empty_frame.h>
+#include <heddle/opengl/empty_framebuffer.h>
 #include <heddle/raster/brick_grid.h>
 #include <heddle/raster/voxelize_slices.h>
 #include <heddle/slice/section_textures.h>
@@ -12,7 +12,7 @@
 namespace heddle::raster {
 
 /// A part of the grid, in subvoxels from the origin.
-struct SlabView {
+struct RasterWindow {
     Vec3i lo, size;
 };
 
@@ -29,22 +29,22 @@ public:
     [[nodiscard]] const opengl::Program& program() const { return program_; }
     /// Slices are bound as storage 0, slots 1, the list 2, the pool 3. Waits for nothing.
     /// @param command  as kListGlsl writes it
-    void draw(const opengl::Buffer& command, const SlabView& view) const;
+    void draw(const opengl::Buffer& command, const RasterWindow& view) const;
 
 private:
     void walk(const opengl::Buffer& command) const;
 
     RasterPath path_;
     opengl::Program program_;
-    opengl::EmptyFrame frame_;
+    opengl::EmptyFramebuffer frame_;
 };
 
 /// What slabs are drawn with, kept from one geometry to the next: programs, each made when it is
 /// first asked for, and the memory of their sums.
-class SlabKit {
+class SlabResources {
 public:
     /// @param path  Auto: what is faster on a software driver; on another it is left open
-    SlabKit(const opengl::Context& context, RasterPath path, Composition composition);
+    SlabResources(const opengl::Context& context, RasterPath path, Composition composition);
 
     [[nodiscard]] Composition composition() const { return composition_; }
     [[nodiscard]] const opengl::Program& list() const { return list_; }

@@ -45,7 +45,7 @@ struct Stored {
     friend bool operator==(const Stored&, const Stored&) = default;
 };
 
-inline std::vector<Stored> stored(const VoxelSource& source) {
+inline std::vector<Stored> stored(const VoxelLevel& source) {
     std::vector<Stored> out;
     for_each_voxel(source, [&](const BlockVoxel& v) {
         out.push_back({v.at, v.coverage(), {v.lobes().begin(), v.lobes().end()}, v.columns()});
@@ -65,7 +65,7 @@ struct Difference {
     double far_deg = 0.0;   ///< 90 of 100 angles are below
 };
 
-inline Difference compare(const VoxelSource& first, const VoxelSource& second) {
+inline Difference compare(const VoxelLevel& first, const VoxelLevel& second) {
     using Key = std::tuple<int, int, int>;
     std::map<Key, Vec3d> axes;
     const int columns = first.info().lattice.subvoxels * first.info().lattice.subvoxels;

@@ -1,11 +1,11 @@
 #include <heddle/raster/voxelize_slices.h>
 
 #include <heddle/base/error.h>
-#include <heddle/base/lender.h>
+#include <heddle/base/object_pool.h>
 #include <heddle/base/parallel.h>
 #include <heddle/raster/brick_grid.h>
 #include <heddle/raster/brick_words.h>
-#include <heddle/raster/draw_bricks.h>
+#include <heddle/raster/rasterize_bricks.h>
 #include <heddle/raster/slab_pass.h>
 #include <heddle/voxel/block_sink.h>
 #include <heddle/voxelize/block_worker.h>
@@ -74,7 +74,7 @@ float thinnest_fiber(const Geometry& geometry,
 void check_thickness(const slice::SectionLayers& sections,
                      const Geometry& geometry,
                      const LatticeUnits& units) {
-    constexpr double kMostReach = 1000.0;
+    constexpr double kMaxReach = 1000.0;
     for (std::size_t s = 0; s < geometry.curves.size(); ++s) {
         const CurveSet& set = geometry.curves[s];
         const YarnType* yarn = geometry.yarn_of(set);
@@ -82,10 +82,10 @@ void check_thickness(const slice::SectionLayers& sections,
         const float model = yarn == nullptr ? 1.0f : yarn->model_radius;
         const float extent = sections.layers[sections.first[s]].extent;
         const double reach = static_cast<double>(radius / model * extent) / units.unit;
-        if (reach <= kMostReach) continue;
+        if (reach <= kMaxReach) continue;
         throw Error(ErrorCode::Unsupported,
                     str("raster: a yarn reaches ", reach, " subvoxels from its centreline (limit ",
-                        kMostReach, ")"),
+                        kMaxReach, ")"),
                     "use larger voxels, or --backend sample");
     }
 }
@@ -103,9 +103,9 @@ struct BlockFitter {
     const BrickGrid& grid;
     std::span<const TouchedBlock> blocks;
     BlockSink& sink;
-    Lender<BlockSums> lender{};
+    ObjectPool<BlockSums> lender{};
 
-    void fit(const DrawnBatch& batch) {
+    void fit(const RasterBatch& batch) {
         parallel_chunks(batch.end - batch.begin, 1, [&](std::size_t i, std::size_t) {
             const auto make = [&] {
                 return std::make_unique<BlockSums>(context.fit.fields.map_sums());
@@ -114,7 +114,7 @@ struct BlockFitter {
         });
     }
 
-    void fit_one(const DrawnBatch& batch, std::size_t rank, BlockSums& sums) {
+    void fit_one(const RasterBatch& batch, std::size_t rank, BlockSums& sums) {
         const TouchedBlock& block = blocks[rank];
         Vec3i lo;
         Vec3i hi;
@@ -124,7 +124,7 @@ struct BlockFitter {
             hi[a] = std::min(corner + kBlockVoxels, grid.voxel_hi[a] + grid.origin[a]);
         }
         sums.reset(lo, hi);
-        for (const DrawnMaterial& drawn : batch.materials) {
+        for (const RasterMaterial& drawn : batch.materials) {
             for (std::size_t k = 0; k < block.bricks.size(); ++k) {
                 const std::size_t slot = batch.first_slot[rank - batch.begin] + k;
                 const Vec3i corner = grid.brick(block.bricks[k]) * kBrickEdge + grid.origin - lo;
@@ -147,12 +147,15 @@ RasterCounts count(std::span<const slice::SliceChunk> chunks,
 }
 
 /// Draws and fits all blocks, a batch after the other.
-void draw_all(BrickDrawer& drawer, BlockFitter& fitter, Progress& progress, RasterCounts& done) {
+void draw_all(BrickRasterizer& rasterizer,
+              BlockFitter& fitter,
+              Progress& progress,
+              RasterCounts& done) {
     progress.begin("draw", "bricks", done.bricks);
     for (std::size_t begin = 0; begin < fitter.blocks.size(); ++done.batches) {
         progress.check();
         const auto drawn_at = Clock::now();
-        const DrawnBatch batch = drawer.draw(fitter.blocks, begin);
+        const RasterBatch batch = rasterizer.draw(fitter.blocks, begin);
         done.draw_seconds += seconds_since(drawn_at);
         const auto fitted_at = Clock::now();
         fitter.fit(batch);
@@ -178,7 +181,7 @@ struct SliceVoxelizer::Kept {
     opengl::Context driver;
     slice::PlacePrograms place;
     opengl::Program mark = make_mark_program();
-    SlabKit kit;
+    SlabResources kit;
     slice::SectionLayers sections;
     std::optional<slice::SectionTextures> textures;
 
@@ -217,12 +220,12 @@ std::int64_t SliceVoxelizer::predict_bytes(const Geometry& geometry,
 SliceVoxelizer::SliceVoxelizer(const RasterOptions& raster) : raster_(raster) {}
 SliceVoxelizer::~SliceVoxelizer() = default;
 
-std::unique_ptr<VoxelSource> SliceVoxelizer::voxelize(const Geometry& geometry,
-                                                      const VoxelizeOptions& options,
-                                                      const VoxelizePlan& plan,
-                                                      Progress& progress,
-                                                      BlockVisitor* visitor,
-                                                      RasterCounts* counts) {
+std::unique_ptr<VoxelLevel> SliceVoxelizer::voxelize(const Geometry& geometry,
+                                                     const VoxelizeOptions& options,
+                                                     const VoxelizePlan& plan,
+                                                     Progress& progress,
+                                                     BlockVisitor* visitor,
+                                                     RasterCounts* counts) {
     check_geometry(geometry);
     const auto start = Clock::now();
     const std::unique_ptr<PreparedGeometry> prepared = take_prepared(plan, geometry, options.seed);
@@ -242,26 +245,26 @@ std::unique_ptr<VoxelSource> SliceVoxelizer::voxelize(const Geometry& geometry,
     const std::vector<TouchedBlock> blocks = find_blocks(driver, kept_->mark, grid, chunks);
     const int bits = weight_bits(units, chunks, thinnest_fiber(geometry, sections, units));
     RasterCounts done = count(chunks, blocks);
-    BrickDrawer drawer(
+    BrickRasterizer rasterizer(
         driver, kept_->kit, grid, *kept_->textures, chunks,
         {.weight_bits = bits, .memory_bytes = memory_of(options), .bricks = done.bricks});
     BlockSink sink(context.info(), indices_of(blocks), plan.spool, options.spool_dir, visitor);
     BlockFitter fitter{context, grid, blocks, sink};
     done.driver = driver.driver();
     done.setup_seconds = seconds_since(start);
-    draw_all(drawer, fitter, progress, done);
+    draw_all(rasterizer, fitter, progress, done);
     done.path = kept_->kit.path();
     if (counts != nullptr) *counts = done;
     return sink.finish();
 }
 
-std::unique_ptr<VoxelSource> voxelize_slices(const Geometry& geometry,
-                                             const VoxelizeOptions& options,
-                                             const RasterOptions& raster,
-                                             const VoxelizePlan& plan,
-                                             Progress& progress,
-                                             BlockVisitor* visitor,
-                                             RasterCounts* counts) {
+std::unique_ptr<VoxelLevel> voxelize_slices(const Geometry& geometry,
+                                            const VoxelizeOptions& options,
+                                            const RasterOptions& raster,
+                                            const VoxelizePlan& plan,
+                                            Progress& progress,
+                                            BlockVisitor* visitor,
+                                            RasterCounts* counts) {
     return SliceVoxelizer(raster).voxelize(geometry, options, plan, progress, visitor, counts);
 }
 

@@ -62,12 +62,12 @@ public:
     /// @param visitor  as for voxelize
     /// @throws Error   Device, OutOfMemory: see Context; Unsupported: meshes, a procedural yarn,
     ///                 more bricks than a buffer's table holds; as plan_voxelize; Cancelled
-    [[nodiscard]] std::unique_ptr<VoxelSource> voxelize(const Geometry& geometry,
-                                                        const VoxelizeOptions& options,
-                                                        const VoxelizePlan& plan,
-                                                        Progress& progress,
-                                                        BlockVisitor* visitor = nullptr,
-                                                        RasterCounts* counts = nullptr);
+    [[nodiscard]] std::unique_ptr<VoxelLevel> voxelize(const Geometry& geometry,
+                                                       const VoxelizeOptions& options,
+                                                       const VoxelizePlan& plan,
+                                                       Progress& progress,
+                                                       BlockVisitor* visitor = nullptr,
+                                                       RasterCounts* counts = nullptr);
 
     /// What drawing takes beside `plan`, bytes: sums on the driver and read back, slices, and the
     /// driver itself. All of it where the driver's memory is the host's; else what is read back.
@@ -85,12 +85,12 @@ private:
 };
 
 /// A SliceVoxelizer's voxelize, for one geometry.
-[[nodiscard]] std::unique_ptr<VoxelSource> voxelize_slices(const Geometry& geometry,
-                                                           const VoxelizeOptions& options,
-                                                           const RasterOptions& raster,
-                                                           const VoxelizePlan& plan,
-                                                           Progress& progress,
-                                                           BlockVisitor* visitor = nullptr,
-                                                           RasterCounts* counts = nullptr);
+[[nodiscard]] std::unique_ptr<VoxelLevel> voxelize_slices(const Geometry& geometry,
+                                                          const VoxelizeOptions& options,
+                                                          const RasterOptions& raster,
+                                                          const VoxelizePlan& plan,
+                                                          Progress& progress,
+                                                          BlockVisitor* visitor = nullptr,
+                                                          RasterCounts* counts = nullptr);
 
 } // namespace heddle::raster

@@ -26,9 +26,9 @@ VoxelizeOptions options_of(double voxel_size) {
     return options;
 }
 
-std::unique_ptr<VoxelSource> draw(const Geometry& geometry,
-                                  const VoxelizeOptions& options,
-                                  Composition composition = Composition::Accumulate) {
+std::unique_ptr<VoxelLevel> draw(const Geometry& geometry,
+                                 const VoxelizeOptions& options,
+                                 Composition composition = Composition::Accumulate) {
     Progress silent;
     return voxelize_slices(geometry, options, {.composition = composition},
                            plan_voxelize(geometry, options), silent);
@@ -158,7 +158,7 @@ TEST(VoxelizeSlices, TwoMaterialsKeepTheirLobes) {
     other.yarn = 0;
     yarns.curves.push_back(other);
     int both = 0;
-    const std::unique_ptr<VoxelSource> drawn = draw(yarns, options_of(0.03));
+    const std::unique_ptr<VoxelLevel> drawn = draw(yarns, options_of(0.03));
     for_each_voxel(*drawn, [&](const BlockVoxel& v) { both += v.lobes().size() == 2 ? 1 : 0; });
     EXPECT_GT(both, 10);
     expect_close(difference_of(yarns, options_of(0.03)), "crossing");
@@ -224,7 +224,7 @@ TEST(VoxelizeSlices, WhatCannotBeDrawnIsOneLine) {
 TEST(VoxelizeSlices, AYarnWithoutLengthBesideOthersLeavesNothing) {
     Geometry yarns = straight_yarn({0.9f, 0.3f, 0.2f}, slice_yarn(0.06f));
     const VoxelizeOptions options = options_of(0.03);
-    const std::unique_ptr<VoxelSource> alone = draw(yarns, options);
+    const std::unique_ptr<VoxelLevel> alone = draw(yarns, options);
     const Vec3f p = yarns.curves[0].points[1];
     heddle::test::add_curve(yarns.curves[0], {p, p, p, p});
     const Difference d = compare(*alone, *draw(yarns, options));

@@ -5,7 +5,8 @@
 
 namespace heddle {
 
-Camera::Camera(const CameraView& view, std::int32_t width, std::int32_t height) : view_(view) {
+Camera::Camera(const CameraParameters& view, std::int32_t width, std::int32_t height)
+    : view_(view) {
     forward_ = normalize(view.target - view.eye);
     const Vec3d right = normalize(cross(forward_, view.up));
     const Vec3d down = cross(forward_, right);
@@ -45,9 +46,9 @@ Ray Camera::ray(float x, float y, std::array<float, 2> lens) const {
     return out;
 }
 
-CameraView frame(const Bounds& box, Vec3d from, Vec3d up, double aspect) {
+CameraParameters frame(const Bounds& box, Vec3d from, Vec3d up, double aspect) {
     constexpr double kMargin = 1.06;
-    CameraView out;
+    CameraParameters out;
     out.up = up;
     if (box.empty()) return out;
     const Vec3d back = normalize(from);

@@ -10,7 +10,7 @@
 namespace heddle {
 
 /// Where a picture is taken from.
-struct CameraView {
+struct CameraParameters {
     bool orthographic = false;
     Vec3d eye{0, 0, 10};
     Vec3d target{};
@@ -25,7 +25,7 @@ struct CameraView {
 class Camera {
 public:
     /// @param width, height  px
-    Camera(const CameraView& view, std::int32_t width, std::int32_t height);
+    Camera(const CameraParameters& view, std::int32_t width, std::int32_t height);
 
     /// @param x, y  px from the upper left corner
     /// @param lens  two numbers in [0, 1)
@@ -33,13 +33,13 @@ public:
     [[nodiscard]] Ray ray(float x, float y, std::array<float, 2> lens) const;
 
 private:
-    CameraView view_;
+    CameraParameters view_;
     Vec3d forward_, right_, down_; ///< right_ and down_: one pixel at distance 1, or one pixel
     double center_x_, center_y_;
 };
 
 /// A camera that sees all of a box from a direction.
 /// @param from  towards the camera, any length > 0
-[[nodiscard]] CameraView frame(const Bounds& box, Vec3d from, Vec3d up, double aspect);
+[[nodiscard]] CameraParameters frame(const Bounds& box, Vec3d from, Vec3d up, double aspect);
 
 } // namespace heddle

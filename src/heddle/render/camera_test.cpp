@@ -7,8 +7,8 @@
 namespace heddle {
 namespace {
 
-CameraView view_down_z() {
-    CameraView view;
+CameraParameters view_down_z() {
+    CameraParameters view;
     view.eye = {1, 2, 10};
     view.target = {1, 2, 0};
     view.view_angle = 1.0;
@@ -17,7 +17,7 @@ CameraView view_down_z() {
 
 TEST(Camera, TheMiddleOfThePictureLooksAtTheTarget) {
     for (const bool orthographic : {false, true}) {
-        CameraView view = view_down_z();
+        CameraParameters view = view_down_z();
         view.orthographic = orthographic;
         const Ray ray = Camera(view, 30, 20).ray(15.0f, 10.0f, {0.5f, 0.5f});
         EXPECT_EQ(ray.direction, (Vec3f{0, 0, -1}));
@@ -45,7 +45,7 @@ TEST(Camera, SpreadIsTheDistanceOfNeighbouringPixels) {
 }
 
 TEST(Camera, ParallelRaysAreAPixelApartAndWide) {
-    CameraView view = view_down_z();
+    CameraParameters view = view_down_z();
     view.orthographic = true;
     view.view_height = 5.0;
     const Camera camera(view, 100, 50);
@@ -58,7 +58,7 @@ TEST(Camera, ParallelRaysAreAPixelApartAndWide) {
 }
 
 TEST(Camera, ALensIsSharpWhereItIsFocused) {
-    CameraView view = view_down_z();
+    CameraParameters view = view_down_z();
     view.lens_radius = 0.5;
     view.focus_distance = 4.0;
     const Camera camera(view, 64, 64);
@@ -87,7 +87,7 @@ TEST(Frame, SeesAllOfABoxAndLittleMore) {
     box.grow(Vec3d{4, 6, 20});
     for (const Vec3d from : {Vec3d{0.5, 0.35, 1.0}, Vec3d{-1, -0.2, 0.1}}) {
         for (const double aspect : {0.4, 1.0, 2.5}) {
-            const CameraView view = frame(box, from, {0, 1, 0}, aspect);
+            const CameraParameters view = frame(box, from, {0, 1, 0}, aspect);
             const auto height = 1000;
             const auto width = static_cast<int>(aspect * height);
             const Camera camera(view, width, height);

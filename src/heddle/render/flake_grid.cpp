@@ -100,7 +100,7 @@ constexpr std::array<std::size_t, 8> kCorner{0, 1, 9, 10, 81, 82, 90, 91};
 
 } // namespace
 
-FlakeGrid::Lookup FlakeGrid::look_up(std::uint32_t leaf, Vec3f at) {
+FlakeGrid::TrilinearLookup FlakeGrid::look_up(std::uint32_t leaf, Vec3f at) {
     Vec3f f;
     std::array<std::int32_t, 3> cell;
     for (int a = 0; a < 3; ++a) {
@@ -120,14 +120,14 @@ FlakeGrid::Lookup FlakeGrid::look_up(std::uint32_t leaf, Vec3f at) {
         {a - a * f.x, a * f.x, b - b * f.x, b * f.x, c - c * f.x, c * f.x, d - d * f.x, d * f.x}};
 }
 
-float FlakeGrid::sigma_t(std::uint32_t leaf, const Lookup& at) const {
+float FlakeGrid::sigma_t(std::uint32_t leaf, const TrilinearLookup& at) const {
     const std::uint16_t* s = sigma_t_.data() + at.first;
     float sum = 0.0f;
     for (std::size_t c = 0; c < 8; ++c) sum += at.weight[c] * static_cast<float>(s[kCorner[c]]);
     return sum * (majorant_[leaf] * (1.0f / (65535.0f * kLargestFlake)));
 }
 
-SggxMatrix FlakeGrid::S(const Lookup& at) const {
+SggxMatrix FlakeGrid::S(const TrilinearLookup& at) const {
     std::array<float, 6> sum{};
     for (std::size_t c = 0; c < 8; ++c) {
         const PackedFlake& p = S_[at.first + kCorner[c]];
@@ -137,7 +137,7 @@ SggxMatrix FlakeGrid::S(const Lookup& at) const {
     return {sum[0], sum[1], sum[2], sum[3], sum[4], sum[5]};
 }
 
-Vec3f FlakeGrid::albedo(const Lookup& at) const {
+Vec3f FlakeGrid::albedo(const TrilinearLookup& at) const {
     if (albedo_.empty()) return one_albedo_;
     Vec3f sum{};
     for (std::size_t c = 0; c < 8; ++c) {
@@ -206,7 +206,7 @@ void FlakeMedium::walk(const GridRay& ray, const Visit& visit) const {
     float t = 0.0f;
     while (t < end) {
         const Vec3i cell = local.base + at;
-        const LeafTable<3>::Place place = grid_->find_leaf(cell);
+        const LeafTable<3>::LeafLookup place = grid_->find_leaf(cell);
         const std::int32_t mask = ~(place.size - 1);
         const Vec3i low = Vec3i{cell.x & mask, cell.y & mask, cell.z & mask} - local.base;
         const detail::Exit exit = detail::find_exit(local, low, place.size);
@@ -238,7 +238,7 @@ void FlakeMedium::track(const GridRay& ray, StreamRandom& random, const Collide&
             }
             t = next;
             left = -std::log(1.0f - random.uniform());
-            const FlakeGrid::Lookup at = FlakeGrid::look_up(leaf, from + direction * t);
+            const FlakeGrid::TrilinearLookup at = FlakeGrid::look_up(leaf, from + direction * t);
             if (!collide(at, grid_->sigma_t(leaf, at) * step, t)) return false;
         }
     });
@@ -247,7 +247,7 @@ void FlakeMedium::track(const GridRay& ray, StreamRandom& random, const Collide&
 bool FlakeMedium::sample_flight(const Ray& ray, StreamRandom& random, FlakeHit& hit) const {
     const GridRay r = enter(ray);
     bool stopped = false;
-    track(r, random, [&](const FlakeGrid::Lookup& at, float density, float t) {
+    track(r, random, [&](const FlakeGrid::TrilinearLookup& at, float density, float t) {
         const float wanted = random.uniform();
         if (!(wanted < density * r.length * kLargestFlake)) return true;
         const SggxMatrix S = grid_->S(at);
@@ -263,7 +263,7 @@ float FlakeMedium::transmittance(const Ray& ray, StreamRandom& random) const {
     constexpr float kLittle = 0.25f; // below it, Russian roulette
     const GridRay r = enter(ray);
     float passes = 1.0f;
-    track(r, random, [&](const FlakeGrid::Lookup& at, float density, float) {
+    track(r, random, [&](const FlakeGrid::TrilinearLookup& at, float density, float) {
         if (!(density > 0.0f)) return true;
         passes *= std::max(0.0f, 1.0f - density * projected_area(grid_->S(at), r.w));
         if (passes >= kLittle) return true;

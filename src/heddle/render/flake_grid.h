@@ -30,20 +30,20 @@ public:
     static constexpr std::uint32_t kNone = LeafTable<3>::kNone;
 
     /// What is in a cell (i spans voxel centres i and i + 1): a leaf, or how much around it is empty.
-    [[nodiscard]] LeafTable<3>::Place find_leaf(Vec3i cell) const { return table_.find(cell); }
+    [[nodiscard]] LeafTable<3>::LeafLookup find_leaf(Vec3i cell) const { return table_.find(cell); }
     /// Largest sigma_t in a leaf: per scene unit of the object.
     [[nodiscard]] float majorant(std::uint32_t leaf) const { return majorant_[leaf]; }
 
     /// A place in a leaf: the cell's first flake, and how far into the cell.
-    struct Lookup {
+    struct TrilinearLookup {
         std::size_t first;
         std::array<float, 8> weight;
     };
     /// @param at  from the leaf's corner, cells; in [0, 8]
-    [[nodiscard]] static Lookup look_up(std::uint32_t leaf, Vec3f at);
-    [[nodiscard]] float sigma_t(std::uint32_t leaf, const Lookup& at) const;
-    [[nodiscard]] SggxMatrix S(const Lookup& at) const;
-    [[nodiscard]] Vec3f albedo(const Lookup& at) const;
+    [[nodiscard]] static TrilinearLookup look_up(std::uint32_t leaf, Vec3f at);
+    [[nodiscard]] float sigma_t(std::uint32_t leaf, const TrilinearLookup& at) const;
+    [[nodiscard]] SggxMatrix S(const TrilinearLookup& at) const;
+    [[nodiscard]] Vec3f albedo(const TrilinearLookup& at) const;
 
     /// Cells that hold all extinction: [lo, hi).
     [[nodiscard]] Vec3i lo() const { return lo_; }

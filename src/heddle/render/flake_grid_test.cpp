@@ -12,8 +12,8 @@ namespace heddle {
 namespace {
 
 /// A ball of fibers that turn with x, radius 5 voxels of size .25, thinner towards -x.
-VoxelGrid ball() {
-    VoxelGrid grid;
+MemoryLevel ball() {
+    MemoryLevel grid;
     grid.info().lattice = {{0.25, 0.25, 0.25}, 8};
     grid.info().materials.resize(1);
     grid.info().materials[0].kind = MaterialKind::Fiber;

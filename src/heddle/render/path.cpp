@@ -87,9 +87,9 @@ private:
             open.t_max = hit.t;
             found = true;
         }
-        const Volume* stopped_in = nullptr;
+        const VolumeInstance* stopped_in = nullptr;
         VolumeHit nearest;
-        for (const Volume& volume : scene_.volumes) {
+        for (const VolumeInstance& volume : scene_.volumes) {
             VolumeHit hit;
             if (!volume.sample_flight(open, options_.transport, choice_, sampler_.stream(), hit))
                 continue;
@@ -140,14 +140,14 @@ private:
     [[nodiscard]] static float clear_of(const Event& event, Vec3f wi, Vec3f direction) {
         constexpr float kRadii = 2.0f;     // of what a fiber shades of itself
         constexpr float kBackEdges = 6.0f; // the way the ray came, some 17 degrees wide
-        constexpr float kLeastCosine = 0.25f;
+        constexpr float kMinCosine = 0.25f;
         if (event.fiber) {
             const float back = std::max(0.0f, dot(wi, direction));
             const float way_back = kBackEdges * event.edge * std::pow(back, 16.0f);
             return std::max(kRadii * event.radius, way_back);
         }
         const float cosine = std::fabs(dot(direction, event.scatterer.axis));
-        return event.edge / std::max(cosine, kLeastCosine);
+        return event.edge / std::max(cosine, kMinCosine);
     }
 
     /// How far a ray from a fiber in a volume runs into the bulk behind the fiber: 1 straight on, 0
@@ -186,7 +186,7 @@ private:
     [[nodiscard]] float transmittance(const Ray& ray) {
         if (scene_.surfaces && scene_.surfaces->occluded(ray)) return 0.0f;
         float passes = 1.0f;
-        for (const Volume& volume : scene_.volumes) {
+        for (const VolumeInstance& volume : scene_.volumes) {
             passes *= volume.transmittance(ray, options_.transport, choice_, sampler_.stream());
             if (passes == 0.0f) break;
         }

@@ -6,7 +6,7 @@
 #include <heddle/render/path_sampler.h>
 #include <heddle/render/surface_scene.h>
 #include <heddle/render/volume/transport.h>
-#include <heddle/render/volume/volume.h>
+#include <heddle/render/volume/volume_instance.h>
 #include <heddle/scatter/scatterer.h>
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace heddle {
 
 /// All that paths run through, in the world. Never changes while a picture is made.
 struct PathScene {
-    std::vector<Volume> volumes;
+    std::vector<VolumeInstance> volumes;
     std::vector<FlakeMedium> flakes;              ///< beside the volumes
     std::shared_ptr<const SurfaceScene> surfaces; ///< may be null
     std::vector<ScatterMaterial> materials;

@@ -187,7 +187,8 @@ TEST(TracePath, OverlappingVolumesPassTheProductAndStayWhite) {
         return trace_path(scene, {}, ray, sampler).transmittance;
     };
     const float first = passes();
-    const Volume other = volume_of(cloud(8), {{1, 0.2, 0}, {0, 1, 0}, {0, 0, 1}, {0.5, 0, 0}});
+    const VolumeInstance other =
+        volume_of(cloud(8), {{1, 0.2, 0}, {0, 1, 0}, {0, 0, 1}, {0.5, 0, 0}});
     scene.volumes.push_back(other);
     const float both = passes();
     scene.volumes.erase(scene.volumes.begin());
@@ -215,7 +216,7 @@ TEST(TracePath, OneVoxelUnderASunIsTheQuadratureOfItsDepth) {
         PathSampler sampler(2, 1, s);
         traced.add(static_cast<double>(trace_path(scene, once, ray, sampler).radiance.y));
     }
-    const Volume& volume = scene.volumes[0];
+    const VolumeInstance& volume = scene.volumes[0];
     StreamRandom random{3};
     const auto passes = [&](Vec3d from, Vec3d towards, double t_max) {
         Ray r = ray_along(from, towards);

@@ -139,8 +139,8 @@ protected:
         scene_.lights = LightSet({Light{}}, 5.0);
     }
     ~RenderPass() override { set_thread_count(0); }
-    static CameraView view() {
-        CameraView view;
+    static CameraParameters view() {
+        CameraParameters view;
         view.eye = {1, 2, 12};
         return view;
     }

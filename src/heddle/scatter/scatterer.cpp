@@ -46,8 +46,8 @@ ScatterSample sample(const Scatterer& at, Vec3f wi, Vec3f u) {
     const detail::ScatterDraw d = draw(at, wi, u);
     ScatterSample s;
     s.direction = d.direction;
-    constexpr float kLeastPdf = 1e-30f; // 1 / pdf is still finite
-    if (!(d.value.pdf > kLeastPdf)) return s;
+    constexpr float kMinPdf = 1e-30f; // 1 / pdf is still finite
+    if (!(d.value.pdf > kMinPdf)) return s;
     s.pdf = d.value.pdf;
     s.weight = d.value.value * (1.0f / s.pdf);
     s.roughness = std::min(1.0f, 0.56418958f / std::sqrt(s.pdf)); // 1 / sqrt(pi)

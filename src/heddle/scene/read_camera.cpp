@@ -7,8 +7,8 @@
 namespace heddle::scene_form {
 namespace {
 
-constexpr std::int64_t kMostSide = 1 << 16;
-constexpr std::int64_t kMostPixels = std::int64_t{1} << 28; // the largest .exr that is read
+constexpr std::int64_t kMaxSide = 1 << 16;
+constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28; // the largest .exr that is read
 
 /// The sine of the angle below which two directions count as parallel.
 constexpr double kParallel = 1e-6;
@@ -53,13 +53,13 @@ SceneCamera read_camera(TableReader& reader) {
 
 void read_film(TableReader& reader, Scene& scene) {
     const auto size =
-        reader.numbers("size", {2}, {.least = 1.0, .most = static_cast<double>(kMostSide)});
+        reader.numbers("size", {2}, {.least = 1.0, .most = static_cast<double>(kMaxSide)});
     if (size) {
         const auto width = static_cast<std::int64_t>((*size)[0]);
         const auto height = static_cast<std::int64_t>((*size)[1]);
         if (static_cast<double>(width) != (*size)[0] || static_cast<double>(height) != (*size)[1]) {
             reader.problem("size", "'size' holds a fraction of a pixel", "write whole numbers");
-        } else if (width * height > kMostPixels) {
+        } else if (width * height > kMaxPixels) {
             reader.problem("size",
                            str("'size' is ", width, " x ", height, " px, the limit is 2^28 px"),
                            "make it smaller");

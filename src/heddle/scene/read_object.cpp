@@ -10,7 +10,7 @@
 namespace heddle::scene_form {
 namespace {
 
-constexpr std::int64_t kMostCount = 1'000'000'000;
+constexpr std::int64_t kMaxCount = 1'000'000'000;
 
 std::vector<std::string_view> kind_names() {
     std::vector<std::string_view> names;
@@ -33,8 +33,8 @@ void read_generate(TableReader& parent, SceneObject& object) {
     if (const auto shape = reader.choose("shape", {"flat", "folded", "hanging"})) {
         options.shape = static_cast<GenerateShape>(*shape);
     }
-    reader.integer("nx", options.nx, 1, kMostCount);
-    reader.integer("ny", options.ny, 1, kMostCount);
+    reader.integer("nx", options.nx, 1, kMaxCount);
+    reader.integer("ny", options.ny, 1, kMaxCount);
     std::int64_t seed = 1;
     reader.integer("seed", seed, 0, std::numeric_limits<std::int64_t>::max());
     options.seed = static_cast<std::uint64_t>(seed);

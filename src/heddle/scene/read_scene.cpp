@@ -17,27 +17,27 @@ using scene_form::MaterialUse;
 using scene_form::TableReader;
 
 /// Scenes are written by people or scripts; a larger file is of another kind.
-constexpr std::uint64_t kMostBytes = std::uint64_t{64} << 20;
-constexpr std::size_t kMostDepth = 32;
+constexpr std::uint64_t kMaxBytes = std::uint64_t{64} << 20;
+constexpr std::size_t kMaxDepth = 32;
 
 /// A scene, while its files are read.
 class SceneDraft {
 public:
     /// Reads the main file; if it is missing, that Error is thrown at once.
-    void read_main(const std::string& path) { read_text(path, read_whole_file(path, kMostBytes)); }
+    void read_main(const std::string& path) { read_text(path, read_whole_file(path, kMaxBytes)); }
     [[nodiscard]] Scene finish();
 
 private:
     void read_text(const std::string& path, const std::string& text);
     void read_tables(TableReader& file);
-    void include(const std::string& path, const Place& place);
+    void include(const std::string& path, const FileLocation& place);
     void read_materials(TableReader& file);
     void read_objects(TableReader& file);
-    bool define(const std::string& what, const Place& place);
+    bool define(const std::string& what, const FileLocation& place);
 
     Scene scene_;
     Problems problems_;
-    std::map<std::string, Place> defined_; ///< "material 'cotton'": where it is defined
+    std::map<std::string, FileLocation> defined_; ///< "material 'cotton'": where it is defined
     std::vector<MaterialUse> uses_;
     std::vector<std::string> open_; ///< files that are being read, canonical paths
     std::set<std::string> read_;    ///< files that were read, which a second include skips
@@ -49,7 +49,7 @@ std::string canonical(const std::string& path) {
 }
 
 /// Returns false and adds a problem if the same thing was defined before.
-bool SceneDraft::define(const std::string& what, const Place& place) {
+bool SceneDraft::define(const std::string& what, const FileLocation& place) {
     const auto [at, fresh] = defined_.emplace(what, place);
     if (!fresh) {
         problems_.add(place, str(what, " is defined at ", to_string(at->second), " already"),
@@ -58,21 +58,21 @@ bool SceneDraft::define(const std::string& what, const Place& place) {
     return fresh;
 }
 
-void SceneDraft::include(const std::string& path, const Place& place) {
+void SceneDraft::include(const std::string& path, const FileLocation& place) {
     const std::string id = canonical(path);
     if (std::find(open_.begin(), open_.end(), id) != open_.end()) {
         problems_.add(place, str("'", path, "' includes itself, directly or by others"),
                       "break the cycle");
         return;
     }
-    if (open_.size() >= kMostDepth) {
-        problems_.add(place, str("files are included ", kMostDepth, " deep"), "nest them less");
+    if (open_.size() >= kMaxDepth) {
+        problems_.add(place, str("files are included ", kMaxDepth, " deep"), "nest them less");
         return;
     }
     if (read_.count(id) > 0) return;
     std::string text;
     try {
-        text = read_whole_file(path, kMostBytes);
+        text = read_whole_file(path, kMaxBytes);
     } catch (const Error& e) {
         problems_.add(place, str("cannot include: ", e.what()));
         return;
@@ -123,7 +123,7 @@ void SceneDraft::read_materials(TableReader& file) {
         const std::string name(key.str());
         const toml::table* table = group.table(name);
         if (table == nullptr) continue;
-        const Place place = group.place_of(name);
+        const FileLocation place = group.place_of(name);
         TableReader reader(*table, place, str("material '", name, "'"), problems_);
         const ScatterMaterial material = scene_form::read_material(reader);
         if (define(str("material '", name, "'"), place)) scene_.materials[name] = material;
@@ -138,7 +138,7 @@ void SceneDraft::read_objects(TableReader& file) {
         const std::string name(key.str());
         const toml::table* table = group.table(name);
         if (table == nullptr) continue;
-        const Place place = group.place_of(name);
+        const FileLocation place = group.place_of(name);
         TableReader reader(*table, place, str("object '", name, "'"), problems_);
         SceneObject object = scene_form::read_object(reader, name, uses_);
         if (define(str("object '", name, "'"), place)) scene_.objects.push_back(std::move(object));

@@ -35,7 +35,7 @@ bool Range::holds(double x) const {
     return (above ? x > least : x >= least) && (below ? x < most : x <= most);
 }
 
-Place place_of(const toml::node& node, const std::string& path) {
+FileLocation place_of(const toml::node& node, const std::string& path) {
     return {path, static_cast<std::int64_t>(node.source().begin.line)};
 }
 
@@ -44,12 +44,12 @@ std::string resolve_path(const std::string& text, const std::string& from) {
 }
 
 TableReader::TableReader(const toml::table& table,
-                         Place place,
+                         FileLocation place,
                          std::string what,
                          Problems& problems)
     : table_(table), place_(std::move(place)), what_(std::move(what)), problems_(problems) {}
 
-Place TableReader::place_of(std::string_view key) const {
+FileLocation TableReader::place_of(std::string_view key) const {
     const toml::node* node = table_.get(key);
     return node == nullptr ? place_ : scene_form::place_of(*node, place_.path);
 }

@@ -85,13 +85,13 @@ struct SymmetricMatrixd {
 }
 
 /// An eigenvector, and whether its eigenvalue is the largest or the smallest.
-struct ApartAxis {
+struct SeparatedAxis {
     Vec3d axis;           ///< unit; zero where all three are equal
     bool largest = false; ///< else the smallest
 };
 
 /// The eigenvector whose eigenvalue is farthest from the other two.                   [Eberly 2014]
-[[nodiscard]] HEDDLE_HD inline ApartAxis find_apart_axis(const SymmetricMatrixd& M) {
+[[nodiscard]] HEDDLE_HD inline SeparatedAxis find_separated_axis(const SymmetricMatrixd& M) {
     const double mean = (M.xx + M.yy + M.zz) * (1.0 / 3.0);
     SymmetricMatrixd B{M.xx - mean, M.yy - mean, M.zz - mean, M.xy, M.xz, M.yz};
     const double square =
@@ -125,7 +125,7 @@ struct ApartAxis {
 /// @return   values descending; axes orthonormal to 1e-9, arbitrary where values are equal
 [[nodiscard]] HEDDLE_HD inline SymmetricEigen decompose(const SymmetricMatrix& A) {
     const detail::SymmetricMatrixd M = detail::to_double(A);
-    const detail::ApartAxis apart = detail::find_apart_axis(M);
+    const detail::SeparatedAxis apart = detail::find_separated_axis(M);
     if (apart.axis == Vec3d{}) {
         const double mean = (M.xx + M.yy + M.zz) * (1.0 / 3.0);
         return {{mean, mean, mean}, {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
@@ -157,7 +157,7 @@ struct ApartAxis {
 /// @return   its component of largest magnitude is positive (the first of equals); the x axis where
 ///           all eigenvalues are equal
 [[nodiscard]] HEDDLE_HD inline Vec3f principal_direction(const SymmetricMatrix& M) {
-    const detail::ApartAxis apart = detail::find_apart_axis(detail::to_double(M));
+    const detail::SeparatedAxis apart = detail::find_separated_axis(detail::to_double(M));
     const Vec3d d = apart.largest ? apart.axis : decompose(M).axis[0]; // no plane needed
     const Vec3d size{std::fabs(d.x), std::fabs(d.y), std::fabs(d.z)};
     const double lead = (size.x >= size.y && size.x >= size.z) ? d.x : size.y >= size.z ? d.y : d.z;

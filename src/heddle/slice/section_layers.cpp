@@ -17,8 +17,8 @@ namespace {
 
 /// The least texels of a fiber's radius; interpolated distances then err by at most 1/300.
 constexpr float kTexelsOfRadius = 6.0f;
-constexpr float kLeastSize = 64.0f;
-constexpr float kMostSize = 1024.0f;
+constexpr float kMinSize = 64.0f;
+constexpr float kMaxSize = 1024.0f;
 
 /// The positions of the fibers of a section, model units.
 struct Discs {
@@ -118,7 +118,7 @@ struct Sections {
 Sections sections_of(const Geometry& geometry, std::uint64_t seed) {
     Sections out;
     out.first.push_back(0);
-    float size = kLeastSize;
+    float size = kMinSize;
     for (std::size_t s = 0; s < geometry.curves.size(); ++s) {
         const CurveSet& set = geometry.curves[s];
         const YarnType* yarn = geometry.yarn_of(set);
@@ -128,8 +128,8 @@ Sections sections_of(const Geometry& geometry, std::uint64_t seed) {
                         "make a slice of it (heddle slice)");
         }
         const bool drawn = yarn != nullptr && yarn->model == YarnModel::Slice;
-        const auto curves = static_cast<std::uint32_t>(
-            std::clamp<std::size_t>(set.curve_count(), 1, kMostVariants));
+        const auto curves =
+            static_cast<std::uint32_t>(std::clamp<std::size_t>(set.curve_count(), 1, kMaxVariants));
         const std::uint32_t variants = drawn ? curves : 1;
         for (std::uint32_t v = 0; v < variants; ++v) {
             out.discs.push_back(discs_of(yarn, seed + s, v));
@@ -138,7 +138,7 @@ Sections sections_of(const Geometry& geometry, std::uint64_t seed) {
         }
         out.first.push_back(static_cast<std::uint32_t>(out.discs.size()));
     }
-    out.size = static_cast<std::int32_t>(std::ceil(std::min(size, kMostSize) / 16.0f)) * 16;
+    out.size = static_cast<std::int32_t>(std::ceil(std::min(size, kMaxSize) / 16.0f)) * 16;
     return out;
 }
 

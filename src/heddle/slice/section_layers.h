@@ -33,9 +33,9 @@ struct SectionLayers {
 };
 
 /// The number of different sections for the yarns of one set of curves.
-constexpr std::uint32_t kMostVariants = 8;
+constexpr std::uint32_t kMaxVariants = 8;
 
-/// In the first kMostVariants curves of a set, the fibers are where the sampling voxelizer places
+/// In the first kMaxVariants curves of a set, the fibers are where the sampling voxelizer places
 /// them (place_fibers with the same seed and number).
 /// @throws Error  Unsupported: a procedural yarn, which one section cannot represent
 [[nodiscard]] SectionLayers build_sections(const Geometry& geometry, std::uint64_t seed);

@@ -23,10 +23,10 @@ TO_PIXELS vec4 tangent_a, tangent_b; // tangent, turn
 TO_PIXELS vec4 normal_a, normal_b;   // normal; layer, colour
 TO_PIXELS vec3 sizes;                // extent and fiber's radius, model units; reach, units
 
-struct Stretch { Slice a, b; vec3 along; float reach; };
+struct Slab { Slice a, b; vec3 along; float reach; };
 
 // Loads the slab after slice `number` and sets the values for its pixels.
-Stretch load_slab(uint number) {
+Slab load_slab(uint number) {
     slab = number;
     Slice a = slices[slab];
     Slice b = slices[slab + 1u];
@@ -40,11 +40,11 @@ Stretch load_slab(uint number) {
     normal_a = vec4(a.normal, float(a.layer));
     normal_b = vec4(b.normal, float(a.color & 0xffffffu)); // 24 bits: exact
     sizes = vec3(a.extent, a.fiber_radius, reach);
-    return Stretch(a, b, n > 0.0 ? chord / n : a.tangent, reach);
+    return Slab(a, b, n > 0.0 ? chord / n : a.tangent, reach);
 }
 
 #ifndef SLABS_IN_COMPUTE
-Stretch give_stretch() { return load_slab(list[gl_InstanceID]); }
+Slab current_slab() { return load_slab(list[gl_InstanceID]); }
 
 vec2 corner() {
     return vec2((gl_VertexID & 1) == 0 ? -1.0 : 1.0, (gl_VertexID & 2) == 0 ? -1.0 : 1.0);

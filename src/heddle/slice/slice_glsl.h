@@ -124,9 +124,9 @@ uniform uint curve_count;
 uniform uint first_span; // first of the kSpansAtOnce that are measured now
 
 const uint kSpansAtOnce = 16384u;
-const float kMostBend = 0.2;  // radians between neighbours
-const float kMostTurn = 0.4;  // radians of twist
-const double kMostSlices = 1.0e6; // per span: more are refused
+const float kMaxBend = 0.2;  // radians between neighbours
+const float kMaxTurn = 0.4;  // radians of twist
+const double kMaxSlices = 1.0e6; // per span: more are refused
 
 double arc_length(Cubic c) { // five-point Gauss-Legendre on the speed
     const float x[5] = float[](0.046910077, 0.23076534, 0.5, 0.76923466, 0.95308992);
@@ -189,10 +189,10 @@ void main() {
         cubic = span_cubic(curve, k);
         double span = arc_length(cubic);
         sum += span;
-        float most = max(float(span) / curve.spacing, bend_of(cubic) / kMostBend);
-        most = max(most, abs(curve.twist) * float(span * per_unit) / kMostTurn);
+        float most = max(float(span) / curve.spacing, bend_of(cubic) / kMaxBend);
+        most = max(most, abs(curve.twist) * float(span * per_unit) / kMaxTurn);
         wanted = max(wanted, double(ceil(most)));
-        slices += clamp(double(ceil(most)), 1.0LF, kMostSlices);
+        slices += clamp(double(ceil(most)), 1.0LF, kMaxSlices);
         vec3 next = tangent_at(cubic, 1.0);
         normal = transport(normal, cubic.c0, tangent, cubic_at(cubic, 1.0), next);
         normal = unit_or(normal - dot(normal, next) * next, any_perpendicular(next));

@@ -10,8 +10,8 @@
 namespace heddle::slice {
 namespace {
 
-constexpr double kMostSlices = 4294967295.0; ///< slices are numbered by 32 bits
-constexpr double kMostOfSpan = 1.0e6;        ///< this and the next: as in kCourseGlsl
+constexpr double kMaxSlices = 4294967295.0; ///< slices are numbered by 32 bits
+constexpr double kMaxOfSpan = 1.0e6;        ///< this and the next: as in kCourseGlsl
 constexpr std::uint32_t kSpansAtOnce = 16384;
 
 /// As in kCurveGlsl.
@@ -48,20 +48,20 @@ std::uint32_t flags_of(const CurveSet& set, std::size_t curve) {
 
 /// @param lattice  rays follow slabs on the lattice: long slabs would fill most of a block
 float spacing_of(double radius_units, double asked, bool lattice) {
-    constexpr double kMostOnLattice = 16.0;
+    constexpr double kMaxOnLattice = 16.0;
     if (asked > 0.0) return static_cast<float>(asked);
     const double half = std::max(0.5 * radius_units, 1.0);
-    return static_cast<float>(lattice ? std::min(half, kMostOnLattice) : half);
+    return static_cast<float>(lattice ? std::min(half, kMaxOnLattice) : half);
 }
 
 /// Radians per subvoxel: a lattice does not resolve more.
-constexpr double kMostTwist = 3.141592653589793;
+constexpr double kMaxTwist = 3.141592653589793;
 
 void check_twist(const YarnType& yarn, double radius_units) {
     if (yarn.model != YarnModel::Slice || !(radius_units > 0.0)) return;
     const double model = static_cast<double>(yarn.model_radius) / radius_units;
     const double twist = std::abs(static_cast<double>(yarn.twist)) * model;
-    if (twist <= kMostTwist) return;
+    if (twist <= kMaxTwist) return;
     throw Error(
         ErrorCode::InvalidArgument,
         str("raster: '", yarn.name, "' twists by ", twist, " radians in a subvoxel (limit 3.14)"),
@@ -150,12 +150,12 @@ void check_count(const std::vector<CourseRow>& courses, double most) {
     double total = 0.0;
     for (const CourseRow& c : courses) {
         total += c.slices;
-        if (c.most <= kMostOfSpan) continue;
+        if (c.most <= kMaxOfSpan) continue;
         throw Error(ErrorCode::InvalidArgument,
                     str("raster: ", c.most, " slices between two points of a yarn (limit 10^6)"),
                     "use a smaller twist, or more points");
     }
-    const double limit = most > 0.0 ? most : kMostSlices;
+    const double limit = most > 0.0 ? most : kMaxSlices;
     if (total <= limit) return;
     throw Error(ErrorCode::InvalidArgument,
                 str("raster: the yarns need ", total, " slices (limit ", limit, ")"),
@@ -186,7 +186,7 @@ PlacePrograms::PlacePrograms()
 
 std::int64_t
 estimate_slices(const Geometry& geometry, const LatticeUnits& units, const PlaceOptions& options) {
-    constexpr double kMostTurn = 0.4; // as in kCourseGlsl
+    constexpr double kMaxTurn = 0.4; // as in kCourseGlsl
     double count = 0.0;
     for (const CurveSet& set : geometry.curves) {
         const YarnType* yarn = geometry.yarn_of(set);
@@ -197,7 +197,7 @@ estimate_slices(const Geometry& geometry, const LatticeUnits& units, const Place
             if (yarn != nullptr && yarn->model == YarnModel::Slice && radius > 0.0) {
                 const double turn =
                     std::fabs(static_cast<double>(yarn->twist * yarn->model_radius));
-                least = std::max(least, turn / radius / kMostTurn);
+                least = std::max(least, turn / radius / kMaxTurn);
             }
             for (std::size_t p = set.first[c]; p + 1 < set.first[c + 1]; ++p) {
                 const double chord = length(to_double(set.points[p + 1] - set.points[p]));

@@ -26,7 +26,7 @@ double since(Clock::time_point start) {
 constexpr double kSaveEvery = 20.0; // seconds between pictures written on the way
 
 /// How far a job has come.
-struct State {
+struct JobProgress {
     std::uint32_t samples = 0; ///< per pixel
     std::uint32_t resumed = 0; ///< of these, from a checkpoint
     double spent = 0.0;        ///< seconds, of the whole job
@@ -35,7 +35,7 @@ struct State {
 
 /// Samples per pixel that the picture should have after the next pass: twice as many, but no more
 /// than fit into the time until the next save or the end, or than the noise seems to need.
-std::uint32_t next_target(const State& at, const Picture& picture, const RenderJob& job) {
+std::uint32_t next_target(const JobProgress& at, const Picture& picture, const RenderJob& job) {
     const double samples = at.samples;
     double more = std::max(1.0, samples - at.resumed);
     double room = kSaveEvery;
@@ -49,7 +49,7 @@ std::uint32_t next_target(const State& at, const Picture& picture, const RenderJ
         std::min(samples + std::max(1.0, more), static_cast<double>(job.samples)));
 }
 
-bool is_done(const State& at, const Picture& picture, const RenderJob& job) {
+bool is_done(const JobProgress& at, const Picture& picture, const RenderJob& job) {
     if (at.samples >= job.samples) return true;
     // half a sample more than the time is as near as half a sample less
     if (job.seconds > 0.0 && at.samples > 0 && at.spent + 0.5 * at.each >= job.seconds) return true;
@@ -83,7 +83,7 @@ void render_passes(const Passes& with,
     with.progress.begin("read levels", "levels", 1);
     while (with.stage.load_next_level()) with.progress.check();
     outcome.load_seconds = since(start) - outcome.first_picture_seconds;
-    State at;
+    JobProgress at;
     at.samples = at.resumed = static_cast<std::uint32_t>(outcome.resumed_from);
     Clock::time_point saved = Clock::now();
     for (at.spent = since(start); !is_done(at, picture, job); at.spent = since(start)) {

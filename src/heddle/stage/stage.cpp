@@ -33,8 +33,8 @@ double distance_to(const Bounds& box, Vec3d p) {
 }
 
 /// @throws Error  BadFile: no voxels, or the level that the scene forces does not exist
-std::vector<VoxelGridInfo> read_levels_of(const SceneObject& object, const Scene& scene) {
-    std::vector<VoxelGridInfo> infos = read_infos(object.volume);
+std::vector<VoxelLevelInfo> read_levels_of(const SceneObject& object, const Scene& scene) {
+    std::vector<VoxelLevelInfo> infos = read_infos(object.volume);
     const int count = static_cast<int>(infos.size());
     if (scene.integrator.level >= count) {
         throw Error(ErrorCode::BadFile,
@@ -77,16 +77,16 @@ Stage::Stage(const Scene& scene, const StageOptions& options, Progress& progress
 
 void Stage::read_level(OpenVolume& volume) {
     volume.pyramid[static_cast<std::size_t>(volume.next)] =
-        std::make_shared<VolumeLevel>(*read_vdb(volume.path, volume.next));
+        std::make_shared<TraversalLevel>(*read_vdb(volume.path, volume.next));
     --volume.next;
 }
 
 void Stage::open_volume(const SceneObject& object, const Scene& scene) {
-    const std::vector<VoxelGridInfo> infos = read_levels_of(object, scene);
+    const std::vector<VoxelLevelInfo> infos = read_levels_of(object, scene);
     OpenVolume volume;
     volume.path = object.volume;
     volume.pyramid.resize(infos.size());
-    for (const VoxelGridInfo& info : infos) volume.voxels.push_back(info.voxel_count);
+    for (const VoxelLevelInfo& info : infos) volume.voxels.push_back(info.voxel_count);
     const Vec3d h = infos.front().lattice.voxel_size;
     volume.voxel_size = std::max({h.x, h.y, h.z});
     volume.instances = object.instances;
@@ -98,7 +98,7 @@ void Stage::open_volume(const SceneObject& object, const Scene& scene) {
 }
 
 void Stage::add_flakes(const SceneObject& object, const Scene& scene) {
-    const std::vector<VoxelGridInfo> infos = read_levels_of(object, scene);
+    const std::vector<VoxelLevelInfo> infos = read_levels_of(object, scene);
     if (infos.front().voxel_count == 0) return;
     std::vector<std::uint32_t> materials;
     std::vector<Vec3f> albedo;
@@ -106,7 +106,8 @@ void Stage::add_flakes(const SceneObject& object, const Scene& scene) {
         materials.push_back(material_of(scene, object, material));
         albedo.push_back(scene_.materials[materials.back()].albedo);
     }
-    std::unique_ptr<VoxelGrid> level = read_vdb(object.volume, std::max(scene.integrator.level, 0));
+    std::unique_ptr<MemoryLevel> level =
+        read_vdb(object.volume, std::max(scene.integrator.level, 0));
     auto field = std::make_unique<FlakeField>(*level, albedo);
     level.reset();
     const auto grid = std::make_shared<const FlakeGrid>(*field);
@@ -167,7 +168,7 @@ void Stage::rebuild_volumes() {
 
 Bounds Stage::bounds() const {
     Bounds box = surface_bounds_;
-    for (const Volume& volume : scene_.volumes) {
+    for (const VolumeInstance& volume : scene_.volumes) {
         if (!volume.bounds().empty()) box.grow(volume.bounds());
     }
     for (const FlakeMedium& medium : scene_.flakes) box.grow(medium.bounds());

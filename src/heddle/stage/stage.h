@@ -35,7 +35,7 @@ public:
 
     [[nodiscard]] const PathScene& scene() const { return scene_; }
     [[nodiscard]] const Camera& camera() const { return *camera_; }
-    [[nodiscard]] const CameraView& view() const { return view_; }
+    [[nodiscard]] const CameraParameters& view() const { return view_; }
     [[nodiscard]] Bounds bounds() const;
     [[nodiscard]] std::int64_t byte_count() const; ///< of levels and geometry
 
@@ -43,7 +43,7 @@ private:
     /// A .vdb and where it stands.
     struct OpenVolume {
         std::string path;
-        VolumePyramid pyramid;
+        TraversalLevels pyramid;
         std::vector<std::int64_t> voxels; ///< per level
         double voxel_size = 0.0;          ///< longest edge of level 0, object units
         std::vector<Affine> instances;
@@ -67,7 +67,7 @@ private:
     std::vector<OpenVolume> open_;
     std::vector<std::string> names_;
     Bounds surface_bounds_;
-    CameraView view_;
+    CameraParameters view_;
     std::unique_ptr<Camera> camera_;
     std::int64_t flake_bytes_ = 0; ///< of all grids; instances share theirs
     std::int32_t width_ = 0, height_ = 0;

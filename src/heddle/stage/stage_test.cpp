@@ -104,7 +104,7 @@ TEST(Stage, AForcedLevelIsReadAndNoneFiner) {
 TEST(Stage, AVolumeWithoutVoxelsIsRefused) {
     const TempFolder folder;
     Scene scene = slab_scene(folder);
-    VoxelGrid none;
+    MemoryLevel none;
     none.info().materials.resize(1);
     Progress progress;
     write_vdb(none, folder.file("slab.vdb"), progress);

@@ -28,7 +28,7 @@ inline VoxelLevels make_slab(const std::vector<Material>& materials) {
                 }
             }
         }
-        auto grid = std::make_unique<VoxelGrid>();
+        auto grid = std::make_unique<MemoryLevel>();
         grid->info().name = "slab";
         grid->info().lattice = lattice_of_level({{0.1, 0.1, 0.1}, 8}, level);
         grid->info().level = level;
@@ -76,7 +76,7 @@ inline SceneCamera camera_at(const Scene& scene, double voxels) {
 
 /// Finest level that was read; -1: none.
 inline int finest_read(const Stage& stage) {
-    const VolumePyramid& pyramid = stage.scene().volumes.at(0).pyramid();
+    const TraversalLevels& pyramid = stage.scene().volumes.at(0).pyramid();
     for (std::size_t l = 0; l < pyramid.size(); ++l) {
         if (pyramid[l]) return static_cast<int>(l);
     }

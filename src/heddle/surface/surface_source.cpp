@@ -12,7 +12,7 @@ namespace {
 
 /// Neighbouring hits in a voxel that share a sample of the maps: a quarter of the cost of reading
 /// them at each, and still 16 samples a voxel and axis.
-constexpr int kMostRun = 4;
+constexpr int kMaxRun = 4;
 
 // Level of the height map at the mean footprint of the mesh's hits.
 float height_level(const Mesh& mesh, const TextureView& map, Vec3d subvoxel_size) {
@@ -54,7 +54,7 @@ SurfaceSource::SurfaceSource(const Geometry& geometry,
                              const LatticeUnits& units,
                              std::uint64_t seed)
     : SurfaceSource(
-          geometry, units.voxel_size * (1.0 / units.n), seed, std::min(units.n, kMostRun)) {}
+          geometry, units.voxel_size * (1.0 / units.n), seed, std::min(units.n, kMaxRun)) {}
 
 void SurfaceSource::add_mesh(const Mesh& mesh) {
     const SurfaceMaps& m = maps_.of(mesh);

@@ -13,7 +13,7 @@
 namespace heddle {
 
 /// Number of a triangle within its mesh.
-struct TrianglePlace {
+struct TriangleId {
     std::uint32_t mesh;
     std::uint32_t triangle;
 };
@@ -83,7 +83,7 @@ struct SurfaceView {
     std::uint32_t material_count = 0;
     std::int32_t run = 1; ///< so many neighbouring hits share a sample, where alpha cuts none
 
-    [[nodiscard]] HEDDLE_HD TrianglePlace place(std::uint64_t triangle) const {
+    [[nodiscard]] HEDDLE_HD TriangleId place(std::uint64_t triangle) const {
         const std::uint64_t mesh = range_of(first_triangle, mesh_count, triangle);
         return {static_cast<std::uint32_t>(mesh),
                 static_cast<std::uint32_t>(triangle - first_triangle[mesh])};

@@ -4,7 +4,7 @@
 
 namespace heddle::viewer {
 
-/// GLSL, vertex: a triangle that covers all pixels, for ViewTarget::draw_all.
+/// GLSL, vertex: a triangle that covers all pixels, for RenderTarget::draw_all.
 inline constexpr std::string_view kAllPixelsGlsl = R"(
 void main() {
     gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);

@@ -17,7 +17,7 @@ Vec3d turn_about(Vec3d v, Vec3d axis, double angle) {
 
 } // namespace
 
-PictureAxes::PictureAxes(Vec3d from, Vec3d upward) {
+CameraAxes::CameraAxes(Vec3d from, Vec3d upward) {
     away = normalize(from * -1.0);
     const Vec3d aside = cross(away, upward);
     right = length(aside) > 1e-9 * length(upward) ? normalize(aside)
@@ -37,12 +37,12 @@ void Orbit::turn(double right, double upward) {
     const Vec3d unit = normalize(from);
     const double now = std::asin(std::clamp(dot(unit, pole), -1.0, 1.0));
     const double then = std::clamp(now + upward, -kSteepest, kSteepest);
-    const PictureAxes axes(from, up);
+    const CameraAxes axes(from, up);
     from = turn_about(from, axes.right, now - then);
 }
 
 void Orbit::pan(double right, double upward) {
-    const PictureAxes axes(from, up);
+    const CameraAxes axes(from, up);
     target = target - axes.right * (right * height) - axes.up * (upward * height);
 }
 
@@ -50,7 +50,7 @@ void Orbit::zoom(double factor) {
     height /= factor;
 }
 
-CameraView Orbit::camera() const {
+CameraParameters Orbit::camera() const {
     if (!(length(from) > 0.0) || !(length(up) > 0.0)) {
         throw Error(ErrorCode::InvalidArgument, "view: a direction has no length",
                     "give one of nonzero length");
@@ -60,8 +60,8 @@ CameraView Orbit::camera() const {
                     str("view: a picture of height ", height, " and ", view_angle, " radians"),
                     "use a zoom above 0 and an angle from 0 to 177 degrees");
     }
-    CameraView out;
-    const PictureAxes axes(from, up);
+    CameraParameters out;
+    const CameraAxes axes(from, up);
     out.orthographic = view_angle == 0.0;
     out.target = target;
     out.up = axes.up;

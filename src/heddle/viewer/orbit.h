@@ -38,17 +38,17 @@ struct Orbit {
     }
     bool operator==(const Orbit&) const = default;
     /// @throws Error  InvalidArgument: a direction of length 0, a height or angle out of range
-    [[nodiscard]] CameraView camera() const;
+    [[nodiscard]] CameraParameters camera() const;
 };
 
 /// The axes of a picture, unit and perpendicular, as in Camera; `away` points away from the eye.
-struct PictureAxes {
+struct CameraAxes {
     Vec3d right, up, away;
 
     /// @param from    towards the eye, nonzero length
     /// @param upward  if it is along `from`, another direction is used
-    PictureAxes(Vec3d from, Vec3d upward);
-    bool operator==(const PictureAxes&) const = default;
+    CameraAxes(Vec3d from, Vec3d upward);
+    bool operator==(const CameraAxes&) const = default;
     /// The components of `v` along these axes.
     [[nodiscard]] Vec3d of(Vec3d v) const { return {dot(right, v), dot(up, v), dot(away, v)}; }
 };

@@ -17,7 +17,7 @@ TEST(Orbit, AFramedBallTouchesThePicturesEdges) {
         for (const double aspect : {1.0, 2.0, 0.5}) {
             Orbit orbit{.view_angle = angle};
             orbit.frame(kBall, aspect);
-            const CameraView camera = orbit.camera();
+            const CameraParameters camera = orbit.camera();
             const double half = std::min(1.0, aspect);
             if (angle == 0.0) {
                 EXPECT_NEAR(camera.view_height * half, 2.0 * kBall.radius, 1e-12);

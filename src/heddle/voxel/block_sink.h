@@ -1,8 +1,8 @@
 #pragma once
 
-#include <heddle/voxel/block_keeper.h>
+#include <heddle/voxel/block_store.h>
 #include <heddle/voxel/block_visitor.h>
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 
 #include <cstddef>
 #include <memory>
@@ -20,7 +20,7 @@ public:
     /// @param spool    blocks wait in a temporary file
     /// @param folder   of the file
     /// @param visitor  may be null
-    BlockSink(const VoxelGridInfo& info,
+    BlockSink(const VoxelLevelInfo& info,
               std::span<const Vec3i> blocks,
               bool spool,
               const std::string& folder,
@@ -42,10 +42,10 @@ public:
         keeper_.keep(rank, block);
     }
 
-    [[nodiscard]] std::unique_ptr<VoxelSource> finish() { return keeper_.finish(); }
+    [[nodiscard]] std::unique_ptr<VoxelLevel> finish() { return keeper_.finish(); }
 
 private:
-    BlockKeeper keeper_;
+    BlockStore keeper_;
     BlockVisitor* visitor_;
     bool keep_sums_;
 };

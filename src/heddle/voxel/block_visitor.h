@@ -1,6 +1,6 @@
 #pragma once
 
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 
 #include <cstdint>
 #include <span>
@@ -15,7 +15,7 @@ struct LevelPlanInput {
     double scale = 1.0;            ///< how many voxels stand for one of the samples'
     Vec3i voxel_lo, voxel_hi;      ///< voxel index range [lo, hi)
     std::int64_t voxels = 0;       ///< of level 0, predicted
-    bool correlation = false;      ///< VoxelGridFields::correlation
+    bool correlation = false;      ///< VoxelFields::correlation
 };
 
 /// What a BlockVisitor will make and hold.
@@ -35,7 +35,7 @@ public:
     /// @param blocks     that visit() will be called for, once each, in about this order: neighbours
     ///                   follow each other (z_order.h). Block i has voxels i * kBlockVoxels and on
     /// @param spool_dir  where finished data go in a temporary file; empty: they stay in memory
-    virtual void begin(const VoxelGridInfo& info,
+    virtual void begin(const VoxelLevelInfo& info,
                        std::span<const Vec3i> blocks,
                        const std::string& spool_dir) = 0;
     /// Called from several threads at once.
@@ -44,7 +44,7 @@ public:
     virtual void visit(std::size_t rank, const VoxelBlock& block) = 0;
 
     /// One of the blocks that the planner voxelizes to see what they cost; from several threads.
-    virtual void sample(const VoxelGridInfo& info, Vec3i index, const VoxelBlock& block) = 0;
+    virtual void sample(const VoxelLevelInfo& info, Vec3i index, const VoxelBlock& block) = 0;
     /// What the visitor will make and hold, after the samples.
     [[nodiscard]] virtual LevelPlan plan(const LevelPlanInput& input) = 0;
 };

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 
 #include <algorithm>
 #include <bit>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 
 #include <array>
 #include <bit>
@@ -87,7 +87,7 @@ void for_each_voxel(const VoxelBlock& block, const Visit& visit) {
 
 /// Calls visit(BlockVoxel) for each voxel of a level, block by block in the source's order.
 template <typename Visit>
-void for_each_voxel(const VoxelSource& source, const Visit& visit) {
+void for_each_voxel(const VoxelLevel& source, const Visit& visit) {
     VoxelBlock scratch;
     for (std::size_t b = 0; b < source.block_count(); ++b) {
         for_each_voxel(source.block(b, scratch), visit);

@@ -38,7 +38,7 @@ PackedSggx RecentFits::fit(const std::int64_t (&moment)[6], std::int64_t weight)
 
 void append_lobes(const LobePool& pool,
                   std::uint32_t order,
-                  const VoxelGridFields& fields,
+                  const VoxelFields& fields,
                   RecentFits& fits,
                   VoxelBlock& out) {
     std::int64_t total = 0;

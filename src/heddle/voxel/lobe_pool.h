@@ -3,7 +3,7 @@
 #include <heddle/base/platform.h>
 #include <heddle/sggx/merge_order.h>
 #include <heddle/sggx/moment_lobes.h>
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 
 #include <algorithm>
 #include <array>
@@ -47,7 +47,7 @@ namespace detail {
 
 /// Puts each of the first `count` values where `place` says, by a copy.
 template <typename T>
-HEDDLE_INLINE void put_in_place(T* values, int count, const std::uint8_t (&place)[kMaxLobes]) {
+HEDDLE_INLINE void permute(T* values, int count, const std::uint8_t (&place)[kMaxLobes]) {
     T before[kMaxLobes];
     for (int i = 0; i < count; ++i) before[i] = values[i];
     for (int i = 0; i < count; ++i) values[place[i]] = before[i];
@@ -60,7 +60,7 @@ HEDDLE_INLINE void put_in_place(T* values, int count, const std::uint8_t (&place
 /// @param make_lobes  (DirectionSums*, int count) -> how lobes are compared and merged (agglomerate.h)
 /// @return            VoxelBlock::merge_order
 template <typename MakeLobes>
-HEDDLE_INLINE std::uint32_t line_up(const LobeRow& row, const MakeLobes& make_lobes) {
+HEDDLE_INLINE std::uint32_t order_lobes(const LobeRow& row, const MakeLobes& make_lobes) {
     if (row.count < 2) return 0;
     std::int64_t weight[kMaxLobes];
     for (int i = 0; i < row.count; ++i) weight[i] = row.sums[i].weight;
@@ -74,8 +74,8 @@ HEDDLE_INLINE std::uint32_t line_up(const LobeRow& row, const MakeLobes& make_lo
         agglomerate(row.count, 1, lobes, merges);
     }
     const MergeOrder order = order_merges(row.count, merges, weight);
-    detail::put_in_place(row.sums, row.count, order.place);
-    if (row.maps != nullptr) detail::put_in_place(row.maps, row.count, order.place);
+    detail::permute(row.sums, row.count, order.place);
+    if (row.maps != nullptr) detail::permute(row.maps, row.count, order.place);
     return order.targets;
 }
 
@@ -83,7 +83,7 @@ HEDDLE_INLINE std::uint32_t line_up(const LobeRow& row, const MakeLobes& make_lo
 /// and lines them up.
 /// @param row   count becomes how many are left
 /// @param same  distance below which lobes merge even so (agglomerate.h)
-/// @return      as line_up
+/// @return      as order_lobes
 template <typename MakeLobes>
 HEDDLE_INLINE std::uint32_t
 reduce(LobeRow& row, int keep, const MakeLobes& make_lobes, float same = 0.0f) {
@@ -100,7 +100,7 @@ reduce(LobeRow& row, int keep, const MakeLobes& make_lobes, float same = 0.0f) {
         }
         row.count = compact_lobes(std::span(row.sums, count), merges, made);
     }
-    return line_up(row, make_lobes);
+    return order_lobes(row, make_lobes);
 }
 
 /// The same of a pool.
@@ -141,10 +141,10 @@ private:
 
 /// Appends the voxel's lobes, at most kMaxLobes, to the block's arrays of lobes and its count: S is
 /// fitted and packed here and nowhere before.
-/// @param order  of reduce() or line_up()
+/// @param order  of reduce() or order_lobes()
 void append_lobes(const LobePool& pool,
                   std::uint32_t order,
-                  const VoxelGridFields& fields,
+                  const VoxelFields& fields,
                   RecentFits& fits,
                   VoxelBlock& out);
 

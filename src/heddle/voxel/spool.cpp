@@ -14,8 +14,8 @@ void fetch(const TempFile& file, std::int64_t& offset, std::vector<T>& into, std
 
 } // namespace
 
-void SpooledGrid::store(std::size_t i, const VoxelBlock& block) {
-    Place& at = places_[i];
+void SpooledLevel::store(std::size_t i, const VoxelBlock& block) {
+    BlockRecord& at = records_[i];
     const auto put = [&](const auto& v) { return file_.append(v.data(), v.size() * sizeof(v[0])); };
     at.offset = put(block.leaves);
     at.leaves = static_cast<std::uint32_t>(block.leaves.size());
@@ -26,8 +26,8 @@ void SpooledGrid::store(std::size_t i, const VoxelBlock& block) {
     });
 }
 
-const VoxelBlock& SpooledGrid::block(std::size_t i, VoxelBlock& scratch) const {
-    const Place& at = places_[i];
+const VoxelBlock& SpooledLevel::block(std::size_t i, VoxelBlock& scratch) const {
+    const BlockRecord& at = records_[i];
     std::int64_t offset = at.offset;
     fetch(file_, offset, scratch.leaves, at.leaves);
     std::size_t n = 0;

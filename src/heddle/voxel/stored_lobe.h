@@ -4,7 +4,7 @@
 #include <heddle/sggx/moment_lobes.h>
 #include <heddle/sggx/moments.h>
 #include <heddle/sggx/pack.h>
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 
 #include <cstdint>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <heddle/base/platform.h>
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 
 #include <cstddef>
 #include <cstdint>

@@ -3,7 +3,7 @@
 #include <heddle/base/parallel.h>
 #include <heddle/base/random.h>
 #include <heddle/sggx/pack.h>
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 
 #include <algorithm>
 #include <cmath>
@@ -66,13 +66,13 @@ inline std::vector<VoxelBlock> make_blocks(const VoxelMap& voxels, int block_vox
 }
 
 /// Fills maps and tangents with bytes that depend on the lobe, as the fields say.
-inline void add_fields(VoxelGrid& grid) {
+inline void add_fields(MemoryLevel& grid) {
     for (VoxelBlock& block : grid.blocks) {
         for (std::size_t l = 0; l < block.lobes.size(); ++l) {
             const auto byte = [&](std::uint64_t k) {
                 return static_cast<std::uint8_t>(hash64(7, l, k));
             };
-            const VoxelGridFields& has = grid.info().fields;
+            const VoxelFields& has = grid.info().fields;
             LobeMaps maps;
             if (has.albedo) maps.albedo = {byte(0), byte(1), byte(2)};
             if (has.surface) {
@@ -88,7 +88,7 @@ inline void add_fields(VoxelGrid& grid) {
     }
 }
 
-inline void count_voxels(VoxelGrid& grid) {
+inline void count_voxels(MemoryLevel& grid) {
     grid.info().voxel_count = grid.info().lobe_count = 0;
     for (const VoxelBlock& block : grid.blocks) {
         grid.info().voxel_count += static_cast<std::int64_t>(block.coverage.size());
@@ -98,7 +98,7 @@ inline void count_voxels(VoxelGrid& grid) {
 
 /// A helix of a solid tube about the y axis: `turns` turns, radius `big`, tube radius `thin`,
 /// voxels. Coverage fades over the tube's last voxel; lobes are needles along the helix.
-inline VoxelGrid make_helix(double big = 40.0, double thin = 6.0, int turns = 3) {
+inline MemoryLevel make_helix(double big = 40.0, double thin = 6.0, int turns = 3) {
     VoxelMap voxels;
     const double pitch = 3.5 * thin;
     const int steps = static_cast<int>(turns * big * 12.0);
@@ -124,7 +124,7 @@ inline VoxelGrid make_helix(double big = 40.0, double thin = 6.0, int turns = 3)
             }
         }
     }
-    VoxelGrid grid;
+    MemoryLevel grid;
     grid.info().name = "helix";
     grid.info().lattice.voxel_size = {0.1, 0.1, 0.1};
     for (const Vec3f albedo : {Vec3f{0.8f, 0.3f, 0.2f}, {0.2f, 0.6f, 0.3f}, {0.2f, 0.3f, 0.8f}}) {
@@ -174,8 +174,8 @@ inline VoxelBlock make_cloth_block(int bx, int bz, int side, std::uint64_t seed)
 }
 
 /// A sheet of about `voxels` voxels in blocks of 32 x 16 x 32.
-inline VoxelGrid make_cloth(double voxels) {
-    VoxelGrid grid;
+inline MemoryLevel make_cloth(double voxels) {
+    MemoryLevel grid;
     grid.info().name = "cloth";
     Material m;
     m.kind = MaterialKind::Fiber;

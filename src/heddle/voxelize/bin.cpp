@@ -39,7 +39,7 @@ void Bins::visit_pairs(const Progress& progress, const Visit& visit) const {
     parallel_chunks(triangles_.count(), kGrain, [&](std::size_t begin, std::size_t end) {
         progress.check();
         for (std::size_t t = begin; t < end; ++t) {
-            const TrianglePlace at = triangles_.place(t);
+            const TriangleId at = triangles_.place(t);
             const Mesh& mesh = triangles_.geometry().meshes[at.mesh];
             const auto [a, b, c] = mesh.triangles[at.triangle];
             const Vec3f corners[3] = {mesh.positions[a], mesh.positions[b], mesh.positions[c]};

@@ -17,7 +17,7 @@ class TriangleSource {
 public:
     explicit TriangleSource(const Geometry& geometry);
     [[nodiscard]] std::uint64_t count() const { return first_.back(); }
-    [[nodiscard]] TrianglePlace place(std::uint64_t triangle) const {
+    [[nodiscard]] TriangleId place(std::uint64_t triangle) const {
         const std::uint64_t mesh = range_of(first_.data(), displacement_.size(), triangle);
         return {static_cast<std::uint32_t>(mesh),
                 static_cast<std::uint32_t>(triangle - first_[mesh])};

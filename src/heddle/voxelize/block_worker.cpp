@@ -6,8 +6,8 @@ namespace heddle {
 namespace {
 
 /// What varies over the geometry's materials decides which optional data the voxels carry.
-VoxelGridFields fields_of(const Geometry& geometry) {
-    VoxelGridFields fields;
+VoxelFields fields_of(const Geometry& geometry) {
+    VoxelFields fields;
     for (const CurveSet& set : geometry.curves) {
         const YarnType* yarn = geometry.yarn_of(set);
         const bool slice = yarn != nullptr && yarn->model == YarnModel::Slice;
@@ -41,21 +41,21 @@ VoxelizeContext::VoxelizeContext(const PreparedGeometry& prepared_in,
     }
 }
 
-VoxelGridFields VoxelizeContext::fields() const {
-    VoxelGridFields of_result = fit.fields;
+VoxelFields VoxelizeContext::fields() const {
+    VoxelFields of_result = fit.fields;
     of_result.masks = options.keep_sums;
     return of_result;
 }
 
-VoxelGridInfo VoxelizeContext::info() const {
+VoxelLevelInfo VoxelizeContext::info() const {
     const Geometry& geometry = prepared.geometry;
-    VoxelGridInfo info{.name = geometry.name,
-                       .lattice = prepared.lattice,
-                       .max_lobes = options.max_lobes,
-                       .fields = fields(),
-                       .materials = geometry.materials,
-                       .yarns = geometry.yarns,
-                       .command = options.command};
+    VoxelLevelInfo info{.name = geometry.name,
+                        .lattice = prepared.lattice,
+                        .max_lobes = options.max_lobes,
+                        .fields = fields(),
+                        .materials = geometry.materials,
+                        .yarns = geometry.yarns,
+                        .command = options.command};
     for (YarnType& yarn : info.yarns) yarn.slice.texels.clear();
     for (std::size_t m = 0; m < info.materials.size(); ++m) {
         info.materials[m].fiber_radius = mean_fiber_radius(geometry, static_cast<std::uint32_t>(m));

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <heddle/base/lender.h>
+#include <heddle/base/object_pool.h>
 #include <heddle/voxelize/block/fit_block.h>
 #include <heddle/voxelize/fiber/gather_fibers.h>
 #include <heddle/voxelize/prepare.h>
@@ -26,9 +26,9 @@ struct VoxelizeContext {
                     bool with_sums = false);
 
     /// Which optional data the result holds.
-    [[nodiscard]] VoxelGridFields fields() const;
+    [[nodiscard]] VoxelFields fields() const;
     /// What is known of the result before it is there.
-    [[nodiscard]] VoxelGridInfo info() const;
+    [[nodiscard]] VoxelLevelInfo info() const;
 };
 
 /// Turns one block's primitives into voxels; keeps its memory from block to block.
@@ -65,7 +65,7 @@ public:
 
 private:
     const VoxelizeContext& context_;
-    Lender<BlockWorker> workers_;
+    ObjectPool<BlockWorker> workers_;
 };
 
 } // namespace heddle

@@ -216,7 +216,7 @@ BlockCounts measure_sample(VoxelizePlan& plan,
     }
     const Bins::Lists lists = bins.fill(chosen, progress);
     WorkerPool pool(context);
-    const VoxelGridInfo info = context.info();
+    const VoxelLevelInfo info = context.info();
     std::vector<BlockCounts> counts(chosen.size());
     parallel_chunks(chosen.size(), 1, [&](std::size_t s, std::size_t) {
         pool.with([&](BlockWorker& worker) {
@@ -313,10 +313,10 @@ void plan_memory(VoxelizePlan& plan, const VoxelizeContext& context, const Bins&
                                SurfaceSource::predict_bytes(context.prepared.geometry);
     const std::int64_t counts = bins.byte_count();
     const std::int64_t workers = thread_count() * BlockWorker::byte_count(context.fit);
-    const VoxelGridFields& fields = plan.fields;
+    const VoxelFields& fields = plan.fields;
     std::int64_t result = predict_block_bytes(plan.leaves, plan.voxels, plan.lobes, fields);
     std::int64_t leaves = plan.leaves;
-    VoxelGridFields of_levels = fields;
+    VoxelFields of_levels = fields;
     of_levels.masks = false;
     for (const LevelSize& l : plan.levels) {
         result += predict_block_bytes(l.leaves, l.voxels, l.lobes, of_levels);

@@ -16,7 +16,7 @@ class PreparedSlot;
 /// What the voxelizer would do, and what it would cost.
 struct VoxelizePlan {
     Lattice lattice;
-    VoxelGridFields fields;         ///< optional data that the result will hold
+    VoxelFields fields;             ///< optional data that the result will hold
     Bounds bounds;                  ///< of what is voxelized, scene units
     Vec3i voxel_lo, voxel_hi;       ///< voxel index range [lo, hi)
     std::int32_t block_voxels = 32; ///< along a block edge

@@ -236,7 +236,7 @@ inline RayFaces cast_rays(const Bundle& bundle) {
 }
 
 /// Adds every voxel that the rays or the voxelizer find occupied.
-inline void compare(const VoxelSource& found, const RayFaces& rays, BundleError& error) {
+inline void compare(const VoxelLevel& found, const RayFaces& rays, BundleError& error) {
     const Vec3i lo = rays.lo();
     const Vec3i size = rays.hi() - lo;
     std::vector<Vec3d> coverage(static_cast<std::size_t>(size.x * size.y * size.z),

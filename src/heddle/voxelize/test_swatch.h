@@ -78,7 +78,7 @@ struct Content {
     friend bool operator==(const Content&, const Content&) = default;
 };
 
-inline std::map<Key, Content> content_of(const VoxelSource& source) {
+inline std::map<Key, Content> content_of(const VoxelLevel& source) {
     std::map<Key, Content> content;
     for_each_voxel(source, [&](const BlockVoxel& v) {
         content[{v.at.x, v.at.y, v.at.z}] = {v.coverage(),

@@ -32,8 +32,8 @@ inline void add_curve(CurveSet& set, const std::vector<Vec3f>& points, bool clos
     set.closed.push_back(closed ? 1 : 0);
 }
 
-inline std::unique_ptr<VoxelSource> voxelize_now(const Geometry& geometry,
-                                                 const VoxelizeOptions& options) {
+inline std::unique_ptr<VoxelLevel> voxelize_now(const Geometry& geometry,
+                                                const VoxelizeOptions& options) {
     Progress silent;
     return voxelize(geometry, options, plan_voxelize(geometry, options), silent);
 }
@@ -45,7 +45,7 @@ inline double covered(const Coverage& coverage, int axis) {
 }
 
 /// Occupied volume, scene units^3.
-inline double occupied_volume(const VoxelSource& source) {
+inline double occupied_volume(const VoxelLevel& source) {
     double sum = 0.0;
     for_each_voxel(source, [&](const BlockVoxel& v) { sum += v.coverage().occupancy / 65535.0; });
     const Vec3d h = source.info().lattice.voxel_size;

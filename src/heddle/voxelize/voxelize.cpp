@@ -50,11 +50,11 @@ std::vector<Batch> cut_batches(const BlockOrder& order, const Bins& bins, std::i
 
 } // namespace
 
-std::unique_ptr<VoxelSource> voxelize(const Geometry& geometry,
-                                      const VoxelizeOptions& options,
-                                      const VoxelizePlan& plan,
-                                      Progress& progress,
-                                      BlockVisitor* visitor) {
+std::unique_ptr<VoxelLevel> voxelize(const Geometry& geometry,
+                                     const VoxelizeOptions& options,
+                                     const VoxelizePlan& plan,
+                                     Progress& progress,
+                                     BlockVisitor* visitor) {
     const std::unique_ptr<PreparedGeometry> prepared = take_prepared(plan, geometry, options.seed);
     const Bins& bins = prepared->bins(progress);
     const VoxelizeContext context(*prepared, options, visitor != nullptr);

@@ -13,10 +13,10 @@ namespace heddle {
 /// @param plan      of plan_voxelize(); other options than those that it was made for are followed,
 ///                  but for what the plan has itself: lattice, range of voxels, batches
 /// @throws Error  as plan_voxelize; Cancelled
-[[nodiscard]] std::unique_ptr<VoxelSource> voxelize(const Geometry& geometry,
-                                                    const VoxelizeOptions& options,
-                                                    const VoxelizePlan& plan,
-                                                    Progress& progress,
-                                                    BlockVisitor* visitor = nullptr);
+[[nodiscard]] std::unique_ptr<VoxelLevel> voxelize(const Geometry& geometry,
+                                                   const VoxelizeOptions& options,
+                                                   const VoxelizePlan& plan,
+                                                   Progress& progress,
+                                                   BlockVisitor* visitor = nullptr);
 
 } // namespace heddle

@@ -22,7 +22,7 @@ struct VoxelizeOptions {
     bool correlation = false;    ///< a BlockVisitor is to find what neighbouring voxels share; all
                                  ///< stays in memory
     std::int64_t samples = 0;    ///< per span, with CoverageMode::Mask; 0: two a subvoxel
-    bool keep_sums = false;      ///< VoxelGridFields::masks stays in the result
+    bool keep_sums = false;      ///< VoxelFields::masks stays in the result
     std::int64_t memory_bytes = 0; ///< peak resident size that is kept; 0: half of what is free
     std::uint64_t seed = 0;
     std::int64_t writer_bytes = 0; ///< what the caller will take to write the result, and per leaf

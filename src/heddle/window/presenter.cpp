@@ -39,7 +39,7 @@ Presenter::~Presenter() {
     glDeleteVertexArrays(1, &vertices_);
 }
 
-void Presenter::show(const viewer::Refiner& picture,
+void Presenter::show(const viewer::ProgressiveRenderer& picture,
                      std::int32_t width,
                      std::int32_t height) const {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -52,7 +52,7 @@ void Presenter::show(const viewer::Refiner& picture,
     picture.coarse().bind_color(1);
     program_.set("rows_done", picture.rows_done());
     program_.use();
-    viewer::ViewTarget::draw_all();
+    viewer::RenderTarget::draw_all();
 }
 
 } // namespace heddle::window

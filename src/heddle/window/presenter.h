@@ -1,7 +1,7 @@
 #pragma once
 
 #include <heddle/opengl/shader.h>
-#include <heddle/viewer/session/refiner.h>
+#include <heddle/viewer/session/progressive_renderer.h>
 
 #include <cstdint>
 
@@ -15,7 +15,8 @@ public:
     Presenter(const Presenter&) = delete;
     Presenter& operator=(const Presenter&) = delete;
 
-    void show(const viewer::Refiner& picture, std::int32_t width, std::int32_t height) const;
+    void
+    show(const viewer::ProgressiveRenderer& picture, std::int32_t width, std::int32_t height) const;
 
 private:
     std::uint32_t vertices_ = 0;

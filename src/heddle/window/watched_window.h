@@ -9,7 +9,7 @@ namespace heddle::window {
 
 /// run_window() that calls `shown(n)` after frame n, counted from 1 over all contexts. What it throws
 /// is taken for what the frame threw.
-[[nodiscard]] WindowCounts run_watched_window(const viewer::Subject& subject,
+[[nodiscard]] WindowCounts run_watched_window(const viewer::ViewedObject& subject,
                                               const viewer::Settings& settings,
                                               const WindowOptions& options,
                                               const Progress& progress,

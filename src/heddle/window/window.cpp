@@ -106,7 +106,7 @@ struct Answers {
 
 /// The lifetime of one context. The next one continues with the state it ends with.
 struct Run {
-    viewer::Subject subject;
+    viewer::ViewedObject subject;
     viewer::Settings settings;
     const WindowOptions& options;
     const Progress& progress;
@@ -175,26 +175,26 @@ void Run::once() {
 
 } // namespace
 
-WindowCounts run_window(const viewer::Subject& subject,
+WindowCounts run_window(const viewer::ViewedObject& subject,
                         const viewer::Settings& settings,
                         const WindowOptions& options,
                         const Progress& progress) {
     return run_watched_window(subject, settings, options, progress, [](std::int64_t) {});
 }
 
-WindowCounts run_watched_window(const viewer::Subject& subject,
+WindowCounts run_watched_window(const viewer::ViewedObject& subject,
                                 const viewer::Settings& settings,
                                 const WindowOptions& options,
                                 const Progress& progress,
                                 const std::function<void(std::int64_t)>& shown) {
-    constexpr int kMostLosses = 3;
+    constexpr int kMaxLosses = 3;
     Run run{subject, settings, options, progress, shown, {}, {}};
     for (int loss = 0;; ++loss) {
         try {
             run.once();
             break;
         } catch (const opengl::LostContext&) {
-            if (loss == kMostLosses) throw;
+            if (loss == kMaxLosses) throw;
         }
     }
     run.answers.summarize(run.counts);

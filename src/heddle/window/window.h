@@ -26,7 +26,7 @@ struct WindowCounts {
 /// @param settings  the initial settings
 /// @param progress  closes the window when it is cancelled
 /// @throws Error    Device: no display, no OpenGL 4.5; as Session
-[[nodiscard]] WindowCounts run_window(const viewer::Subject& subject,
+[[nodiscard]] WindowCounts run_window(const viewer::ViewedObject& subject,
                                       const viewer::Settings& settings,
                                       const WindowOptions& options,
                                       const Progress& progress);

@@ -16,7 +16,7 @@ namespace {
 
 TEST(Window, OpensAnewWhereTheContextIsLostAndEndsWhenItIsCancelled) {
     if (std::getenv("DISPLAY") == nullptr) GTEST_SKIP() << "no display";
-    viewer::Subject subject;
+    viewer::ViewedObject subject;
     subject.name = "hair";
     subject.geometry = generate({.kind = GenerateKind::Hair, .nx = 4, .ny = 4});
     viewer::Settings settings;

@@ -22,7 +22,7 @@ struct Option {
     std::string names;     ///< "-o, --output", "--voxels", or "FILE" for what needs no dash
     std::string metavar;   ///< "N"; empty for a flag
     std::string preset;    ///< value when not given; "(...)" names it in words
-    Values values;         ///< range
+    ValueRule values;      ///< range
     std::string unit;      ///< empty where it has none
     std::string text;      ///< what it does
     bool required = false; ///< must be given

@@ -32,11 +32,11 @@ std::string interval(double lo, double hi, bool above) {
     return str(above ? "> " : "", plain(lo), " to ", plain(hi));
 }
 
-bool inside(double x, const Values& v) {
+bool inside(double x, const ValueRule& v) {
     return (v.above ? x > v.lo : x >= v.lo) && x <= v.hi;
 }
 
-std::string numbers_problem(const std::string& text, const Values& v) {
+std::string numbers_problem(const std::string& text, const ValueRule& v) {
     const std::vector<std::string> pieces = split(text, v.separator);
     const int n = static_cast<int>(pieces.size());
     if (n != v.least && n != v.most) {
@@ -56,7 +56,7 @@ std::string numbers_problem(const std::string& text, const Values& v) {
 
 } // namespace
 
-std::string Values::range() const {
+std::string ValueRule::range() const {
     switch (kind) {
     case ValueKind::Choice: return join(words);
     case ValueKind::Integer:
@@ -68,7 +68,7 @@ std::string Values::range() const {
     return {};
 }
 
-std::string Values::problem(const std::string& text) const {
+std::string ValueRule::problem(const std::string& text) const {
     switch (kind) {
     case ValueKind::Choice: {
         if (std::find(words.begin(), words.end(), text) != words.end()) return {};
@@ -92,26 +92,26 @@ std::string Values::problem(const std::string& text) const {
     return {};
 }
 
-Values flag() {
+ValueRule flag() {
     return {.kind = ValueKind::Flag};
 }
-Values any_text() {
+ValueRule any_text() {
     return {.kind = ValueKind::Text};
 }
-Values one_of(std::vector<std::string> words) {
+ValueRule one_of(std::vector<std::string> words) {
     return {.kind = ValueKind::Choice, .words = std::move(words)};
 }
-Values integer(std::int64_t lo, std::int64_t hi) {
+ValueRule integer(std::int64_t lo, std::int64_t hi) {
     return {
         .kind = ValueKind::Integer, .lo = static_cast<double>(lo), .hi = static_cast<double>(hi)};
 }
-Values number(double lo, double hi) {
+ValueRule number(double lo, double hi) {
     return {.kind = ValueKind::Numbers, .lo = lo, .hi = hi};
 }
-Values positive() {
+ValueRule positive() {
     return {.kind = ValueKind::Numbers, .lo = 0.0, .hi = kInf, .above = true};
 }
-Values numbers(int least, int most, double lo, double hi, char separator, bool above) {
+ValueRule numbers(int least, int most, double lo, double hi, char separator, bool above) {
     return {.kind = ValueKind::Numbers,
             .lo = lo,
             .hi = hi,
@@ -120,7 +120,7 @@ Values numbers(int least, int most, double lo, double hi, char separator, bool a
             .most = most,
             .separator = separator};
 }
-Values bytes() {
+ValueRule bytes() {
     return {.kind = ValueKind::Bytes};
 }
 

@@ -16,7 +16,7 @@ enum class ValueKind : std::uint8_t {
 };
 
 /// What an option takes: parsed, checked and printed from this alone.
-struct Values {
+struct ValueRule {
     ValueKind kind = ValueKind::Text;
     std::vector<std::string> words{};
     double lo = 0.0, hi = 0.0;
@@ -30,15 +30,15 @@ struct Values {
     [[nodiscard]] std::string problem(const std::string& text) const;
 };
 
-[[nodiscard]] Values flag();
-[[nodiscard]] Values any_text();
-[[nodiscard]] Values one_of(std::vector<std::string> words);
-[[nodiscard]] Values integer(std::int64_t lo, std::int64_t hi);
-[[nodiscard]] Values number(double lo, double hi);
-[[nodiscard]] Values positive();
+[[nodiscard]] ValueRule flag();
+[[nodiscard]] ValueRule any_text();
+[[nodiscard]] ValueRule one_of(std::vector<std::string> words);
+[[nodiscard]] ValueRule integer(std::int64_t lo, std::int64_t hi);
+[[nodiscard]] ValueRule number(double lo, double hi);
+[[nodiscard]] ValueRule positive();
 /// `least` or `most` numbers, joined by `separator`.
-[[nodiscard]] Values
+[[nodiscard]] ValueRule
 numbers(int least, int most, double lo, double hi, char separator = ',', bool above = false);
-[[nodiscard]] Values bytes();
+[[nodiscard]] ValueRule bytes();
 
 } // namespace heddle::cli

@@ -9,7 +9,7 @@
 namespace heddle::cli {
 namespace {
 
-constexpr std::int64_t kMostFrames = 1'000'000;
+constexpr std::int64_t kMaxFrames = 1'000'000;
 
 /// Takes a number off the front of `text`; -1 where there is none, or more than nine digits.
 std::int64_t take_number(std::string_view& text) {
@@ -49,7 +49,7 @@ std::vector<std::int64_t> parse_frames(const std::string& text) {
                 "' is not a range; give A-B or A-B:STEP with A <= B, for example 1-24:2"));
     }
     const std::int64_t count = (last - first) / step + 1;
-    if (count > kMostFrames) {
+    if (count > kMaxFrames) {
         throw UsageError(str("--frames: '", text, "' has ", count, " frames; the limit is 10^6"));
     }
     std::vector<std::int64_t> numbers;

@@ -22,8 +22,8 @@ std::int64_t array_bytes(int level, const LevelCounts& count, bool maps) {
 
 /// Beside the level's own arrays while it is stored.
 std::int64_t
-store_bytes(std::int64_t blocks, int level, const LevelCounts& count, const FitOptions& settings) {
-    const VoxelGridFields& fields = settings.fields;
+store_bytes(std::int64_t blocks, int level, const LevelCounts& count, const FitOptions& options) {
+    const VoxelFields& fields = options.fields;
     const auto leaves = blocks * static_cast<std::int64_t>(LeafCells{level}.per_block());
     const std::int64_t order = count.voxels * 8 + 4; // for as long as the rest takes
     const std::int64_t leaf = leaves * 64 + (leaves + 1) * 8 + count.voxels;
@@ -67,28 +67,27 @@ std::unique_ptr<UpperVoxel> TopLevel::take(std::size_t slot) const {
 
 void BatchLevels::cut(std::size_t slot, Vec3i index, VoxelBlock& level0, BuiltBlock& built) const {
     level[0].cut(slot, index, level0);
-    for (std::size_t l = 1; l <= static_cast<std::size_t>(settings.levels); ++l) {
+    for (std::size_t l = 1; l <= static_cast<std::size_t>(options.levels); ++l) {
         level[l].cut(slot, index, built.level[l - 1]);
     }
-    built.top = settings.top ? top.take(slot) : nullptr;
+    built.top = options.top ? top.take(slot) : nullptr;
 }
 
 std::int64_t predict_level_bytes(std::int64_t blocks,
                                  std::int64_t voxels,
                                  std::int64_t lobes,
-                                 const BatchSettings& settings) {
-    const bool maps = settings.with_maps();
+                                 const BatchOptions& options) {
+    const bool maps = options.with_maps();
     LevelCounts below{voxels, lobes};
-    std::int64_t most =
-        array_bytes(0, below, maps) + store_bytes(blocks, 0, below, settings.level0);
-    for (int level = 1; level <= settings.levels; ++level) {
-        const std::int64_t cells = blocks * (std::int64_t{kBlockCells} >> (3 * level));
+    std::int64_t most = array_bytes(0, below, maps) + store_bytes(blocks, 0, below, options.level0);
+    for (int level = 1; level <= options.levels; ++level) {
+        const std::int64_t cells = blocks * (std::int64_t{kVoxelsPerBlock} >> (3 * level));
         LevelCounts here;
         here.voxels = std::min(below.voxels, cells);
-        here.lobes = std::min(below.lobes, here.voxels * settings.above.max_lobes);
+        here.lobes = std::min(below.lobes, here.voxels * options.above.max_lobes);
         const std::int64_t own = array_bytes(level, here, maps);
         most = std::max({most, array_bytes(level - 1, below, maps) + own + join_bytes(below, here),
-                         own + store_bytes(blocks, level, here, settings.above)});
+                         own + store_bytes(blocks, level, here, options.above)});
         below = here;
     }
     return most;

@@ -12,7 +12,7 @@
 namespace heddle {
 
 /// What is made of a batch's level 0.
-struct BatchSettings {
+struct BatchOptions {
     FitOptions level0; ///< with fields.masks: columns and sums too
     FitOptions above;  ///< of levels above 0
     int levels = 0;    ///< above level 0, 0 to kBlockLevel
@@ -36,7 +36,7 @@ struct TopLevel {
 /// Level 0 and the levels above it of a batch of blocks, on the host; buffers are kept from batch to
 /// batch.
 struct BatchLevels {
-    BatchSettings settings;
+    BatchOptions options;
     std::array<StoredLevel, kBlockLevel + 1> level;
     TopLevel top;
 
@@ -57,7 +57,7 @@ template <typename Exec>
 void build_batch_levels(Exec& exec,
                         LevelArrays level0,
                         std::size_t blocks,
-                        const BatchSettings& settings,
+                        const BatchOptions& options,
                         BatchLevels& out);
 
 /// Bytes that build_batch_levels() has in use at once, at most, level 0's arrays included: however
@@ -66,6 +66,6 @@ void build_batch_levels(Exec& exec,
 [[nodiscard]] std::int64_t predict_level_bytes(std::int64_t blocks,
                                                std::int64_t voxels,
                                                std::int64_t lobes,
-                                               const BatchSettings& settings);
+                                               const BatchOptions& options);
 
 } // namespace heddle

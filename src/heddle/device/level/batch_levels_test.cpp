@@ -4,7 +4,7 @@
 #include <heddle/device/level/block_cell.h>
 #include <heddle/executor/host_executor.h>
 #include <heddle/lod/build_levels.h>
-#include <heddle/lod/source_part.h>
+#include <heddle/lod/level_subset.h>
 #include <heddle/voxel/leaf_voxels.h>
 #include <heddle/voxelize/test_swatch.h>
 
@@ -20,7 +20,7 @@ using namespace heddle::test;
 
 /// Blocks of level 0 with columns and sums, none empty.
 struct Finest {
-    std::unique_ptr<VoxelSource> source;
+    std::unique_ptr<VoxelLevel> source;
     std::vector<VoxelBlock> blocks;
     std::vector<Vec3i> index;
 };
@@ -44,18 +44,19 @@ Finest voxelized(const Geometry& geometry, VoxelizeOptions options) {
 }
 
 /// One voxel of a block and where its data lie.
-struct Place {
+struct KeyedVoxel {
     std::uint64_t key;
     std::size_t voxel;
     std::size_t lobe;
 };
 
-std::vector<Place> places_of(const VoxelBlock& block, Vec3i index) {
-    std::vector<Place> out;
+std::vector<KeyedVoxel> places_of(const VoxelBlock& block, Vec3i index) {
+    std::vector<KeyedVoxel> out;
     for_each_voxel(block, [&](const BlockVoxel& v) {
-        out.push_back({z_order_of(v.at - index * kBlockVoxels), v.voxel, v.lobe});
+        out.push_back({z_order_from_index(v.at - index * kBlockVoxels), v.voxel, v.lobe});
     });
-    std::sort(out.begin(), out.end(), [](const Place& a, const Place& b) { return a.key < b.key; });
+    std::sort(out.begin(), out.end(),
+              [](const KeyedVoxel& a, const KeyedVoxel& b) { return a.key < b.key; });
     return out;
 }
 
@@ -70,7 +71,7 @@ arrays_of(executor::HostExecutor& exec, const Finest& finest, std::size_t begin,
     std::vector<MapSums> maps;
     for (std::size_t b = begin; b < end; ++b) {
         const VoxelBlock& block = finest.blocks[b];
-        for (const Place& at : places_of(block, finest.index[b])) {
+        for (const KeyedVoxel& at : places_of(block, finest.index[b])) {
             key.push_back(static_cast<std::uint64_t>(b - begin) << 15 | at.key);
             hits.push_back((block.coverage[at.voxel].occupancy * unsigned(n * n * n) + 32767) /
                            65535);
@@ -102,10 +103,10 @@ arrays_of(executor::HostExecutor& exec, const Finest& finest, std::size_t begin,
     return out;
 }
 
-BatchSettings settings_of(const Finest& finest, const LevelBuilder& builder) {
-    const VoxelGridInfo& info = finest.source->info();
+BatchOptions settings_of(const Finest& finest, const LevelBuilder& builder) {
+    const VoxelLevelInfo& info = finest.source->info();
     const LevelOptions& above = *builder.options_of_built();
-    BatchSettings out;
+    BatchOptions out;
     out.level0.subvoxels = out.above.subvoxels = info.lattice.subvoxels;
     out.level0.max_lobes = info.max_lobes;
     out.level0.fields = info.fields;
@@ -120,7 +121,7 @@ VoxelLevels built_by_visits(const Finest& finest, const LodOptions& lod) {
     LevelBuilder builder(lod);
     builder.begin(finest.source->info(), finest.index, {});
     for (std::size_t b = 0; b < finest.blocks.size(); ++b) builder.visit(b, finest.blocks[b]);
-    return builder.finish(std::make_unique<SourcePart>(*finest.source));
+    return builder.finish(std::make_unique<LevelSubset>(*finest.source));
 }
 
 /// Builds the levels batch by batch, and expects that level 0 comes back as it was, and that no batch
@@ -128,7 +129,7 @@ VoxelLevels built_by_visits(const Finest& finest, const LodOptions& lod) {
 VoxelLevels built_by_batches(const Finest& finest, const LodOptions& lod, std::size_t batches) {
     LevelBuilder builder(lod);
     builder.begin(finest.source->info(), finest.index, {});
-    const BatchSettings settings = settings_of(finest, builder);
+    const BatchOptions settings = settings_of(finest, builder);
     BatchLevels built;
     const std::size_t count = finest.blocks.size();
     for (std::size_t k = 0; k < batches; ++k) {
@@ -151,7 +152,7 @@ VoxelLevels built_by_batches(const Finest& finest, const LodOptions& lod, std::s
             builder.accept(b, block, levels);
         }
     }
-    return builder.finish(std::make_unique<SourcePart>(*finest.source));
+    return builder.finish(std::make_unique<LevelSubset>(*finest.source));
 }
 
 void expect_parity(const Geometry& geometry,
@@ -256,7 +257,7 @@ TEST(BatchLevels, TooLittleMemoryIsAnErrorOfOneLine) {
     const Finest finest = voxelized(swatch(), voxels(60));
     LevelBuilder builder({});
     builder.begin(finest.source->info(), finest.index, {});
-    const BatchSettings settings = settings_of(finest, builder);
+    const BatchOptions settings = settings_of(finest, builder);
     const auto build = [&](executor::Budget& budget) {
         executor::HostExecutor exec(budget);
         BatchLevels built;
@@ -285,7 +286,7 @@ TEST(LevelBuilder, TakesBuiltLevelsOnlyWhereTheyWouldBeItsOwn) {
     const Finest finest = voxelized(swatch(), voxels(60));
     const auto takes = [&](LodOptions lod, bool correlation, bool with_columns) {
         LevelBuilder builder(lod, with_columns);
-        VoxelGridInfo info = finest.source->info();
+        VoxelLevelInfo info = finest.source->info();
         info.fields.correlation = correlation;
         builder.begin(info, finest.index, {});
         return builder.options_of_built() != nullptr;

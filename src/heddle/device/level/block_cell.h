@@ -9,7 +9,7 @@
 namespace heddle {
 
 /// Voxels of a block.
-constexpr std::uint32_t kBlockCells = kBlockVoxels * kBlockVoxels * kBlockVoxels;
+constexpr std::uint32_t kVoxelsPerBlock = kBlockVoxels * kBlockVoxels * kBlockVoxels;
 
 /// Bits b4 .. b0 of a coordinate as b4 00 b3 00 .. b0.
 [[nodiscard]] HEDDLE_HD constexpr std::uint32_t spread_bits(std::uint32_t b) {
@@ -27,12 +27,12 @@ constexpr std::uint32_t kBlockCells = kBlockVoxels * kBlockVoxels * kBlockVoxels
 
 /// Place of voxel (x, y, z) of a block in Z-order, x first: a parent's children follow each other, child
 /// number x << 2 | y << 1 | z.
-[[nodiscard]] HEDDLE_HD constexpr std::uint32_t z_order_of(Vec3i at) {
+[[nodiscard]] HEDDLE_HD constexpr std::uint32_t z_order_from_index(Vec3i at) {
     return spread_bits(static_cast<std::uint32_t>(at.x)) << 2 |
            spread_bits(static_cast<std::uint32_t>(at.y)) << 1 |
            spread_bits(static_cast<std::uint32_t>(at.z));
 }
-[[nodiscard]] HEDDLE_HD constexpr Vec3i place_of(std::uint32_t z_order) {
+[[nodiscard]] HEDDLE_HD constexpr Vec3i index_from_z_order(std::uint32_t z_order) {
     return {static_cast<std::int32_t>(gather_bits(z_order >> 2)),
             static_cast<std::int32_t>(gather_bits(z_order >> 1)),
             static_cast<std::int32_t>(gather_bits(z_order))};

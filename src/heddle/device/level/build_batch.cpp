@@ -5,6 +5,6 @@
 namespace heddle {
 
 template void build_batch_levels(
-    executor::HostExecutor&, LevelArrays, std::size_t, const BatchSettings&, BatchLevels&);
+    executor::HostExecutor&, LevelArrays, std::size_t, const BatchOptions&, BatchLevels&);
 
 } // namespace heddle

@@ -14,24 +14,24 @@ template <typename Exec>
 void build_batch_levels(Exec& exec,
                         LevelArrays level0,
                         std::size_t blocks,
-                        const BatchSettings& settings,
+                        const BatchOptions& options,
                         BatchLevels& out) {
-    out.settings = settings;
-    store_level_arrays(exec, level0, blocks, settings.level0, out.level[0]);
+    out.options = options;
+    store_level_arrays(exec, level0, blocks, options.level0, out.level[0]);
     LevelArrays level = std::move(level0);
-    for (int l = 1; l <= settings.levels; ++l) {
-        level = build_level_arrays(exec, std::move(level), settings.above.max_lobes);
-        store_level_arrays(exec, level, blocks, settings.above,
+    for (int l = 1; l <= options.levels; ++l) {
+        level = build_level_arrays(exec, std::move(level), options.above.max_lobes);
+        store_level_arrays(exec, level, blocks, options.above,
                            out.level[static_cast<std::size_t>(l)]);
     }
-    if (!settings.top) return;
-    detail::bring_down(exec, std::move(level.key), out.top.key);
-    detail::bring_down(exec, std::move(level.hits), out.top.hits);
-    detail::bring_down(exec, std::move(level.first_lobe), out.top.first_lobe);
-    detail::bring_down(exec, std::move(level.order), out.top.order);
-    detail::bring_down(exec, std::move(level.columns), out.top.columns);
-    detail::bring_down(exec, std::move(level.lobes), out.top.lobes);
-    detail::bring_down(exec, std::move(level.maps), out.top.maps);
+    if (!options.top) return;
+    detail::download_array(exec, std::move(level.key), out.top.key);
+    detail::download_array(exec, std::move(level.hits), out.top.hits);
+    detail::download_array(exec, std::move(level.first_lobe), out.top.first_lobe);
+    detail::download_array(exec, std::move(level.order), out.top.order);
+    detail::download_array(exec, std::move(level.columns), out.top.columns);
+    detail::download_array(exec, std::move(level.lobes), out.top.lobes);
+    detail::download_array(exec, std::move(level.maps), out.top.maps);
 }
 
 } // namespace heddle

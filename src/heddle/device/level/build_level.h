@@ -13,7 +13,7 @@ namespace heddle {
 /// @throws Error     OutOfMemory, Device
 template <typename Exec>
 [[nodiscard]] LevelArrays build_level_arrays(Exec& exec, LevelArrays below, int max_lobes) {
-    exec.set_stage("levels");
+    exec.set_phase("levels");
     const std::size_t n = below.voxel_count;
     auto first = exec.template make<std::uint8_t>(n);
     auto parent = exec.template make<std::uint32_t>(n + 1);

@@ -58,7 +58,7 @@ static_assert(sizeof(BatchBlock) == 80);
 struct DenseSums {
     const BatchBlock* blocks = nullptr;
     std::uint64_t* masks = nullptr; ///< a block's voxels follow each other
-    std::uint64_t* lobes = nullptr; ///< plane by plane: kBlockCells voxels each
+    std::uint64_t* lobes = nullptr; ///< plane by plane: kVoxelsPerBlock voxels each
     std::uint64_t* maps = nullptr;  ///< plane by plane; null without maps
 
     /// Plane of a material in a block whose primitives have it.
@@ -67,14 +67,14 @@ struct DenseSums {
         return block.first_plane + block.materials.count_below(material);
     }
     /// Weight of a lobe; 0 where there is none.
-    /// @param at  plane x kBlockCells + cell
+    /// @param at  plane x kVoxelsPerBlock + cell
     [[nodiscard]] HEDDLE_HD std::uint64_t weight_at(std::size_t at) const {
         return lobes[at * DenseLobe::kLobeWords + LobeField::Weight];
     }
     [[nodiscard]] HEDDLE_HD DenseLobe lobe(std::uint32_t slot, std::uint32_t material) const {
-        const std::size_t plane = std::size_t{plane_of(blocks[slot], material)} * kBlockCells;
+        const std::size_t plane = std::size_t{plane_of(blocks[slot], material)} * kVoxelsPerBlock;
         DenseLobe out;
-        out.masks = masks + std::size_t{slot} * kBlockCells * DenseLobe::kMaskWords;
+        out.masks = masks + std::size_t{slot} * kVoxelsPerBlock * DenseLobe::kMaskWords;
         out.lobes = lobes + plane * DenseLobe::kLobeWords;
         if (maps != nullptr) out.maps = maps + plane * DenseLobe::kMapWords;
         return out;
@@ -82,7 +82,7 @@ struct DenseSums {
     /// Bytes of a batch's sums.
     [[nodiscard]] static constexpr std::int64_t
     byte_count(std::int64_t blocks, std::int64_t planes, bool with_maps) {
-        return std::int64_t{kBlockCells} * 8 *
+        return std::int64_t{kVoxelsPerBlock} * 8 *
                (blocks * DenseLobe::kMaskWords +
                 planes * (DenseLobe::kLobeWords + (with_maps ? DenseLobe::kMapWords : 0)));
     }

@@ -37,8 +37,8 @@ template <typename Exec>
                                    std::size_t blocks,
                                    bool merging,
                                    const FitOptions& options) {
-    exec.set_stage("fit");
-    const std::size_t cells = blocks * kBlockCells;
+    exec.set_phase("fit");
+    const std::size_t cells = blocks * kVoxelsPerBlock;
     executor::Array<std::uint8_t> voxels = exec.template make<std::uint8_t>(cells);
     executor::Array<std::uint16_t> lobes = exec.template make<std::uint16_t>(cells);
     exec.for_each(cells, CountVoxelOp{sums, voxels.data(), lobes.data()});

@@ -13,15 +13,15 @@
 namespace heddle {
 
 /// One voxel's place in a batch's sums.
-struct SumsPlace {
+struct SumsIndex {
     std::uint32_t slot = 0; ///< of the block
     int cell = -1;          ///< relative to the block's lo; < 0: outside of what it has
 
-    /// @param i  block x kBlockCells + place in Z-order
-    HEDDLE_HD SumsPlace(const BatchBlock* blocks, std::size_t i)
-        : slot(static_cast<std::uint32_t>(i / kBlockCells)) {
+    /// @param i  block x kVoxelsPerBlock + place in Z-order
+    HEDDLE_HD SumsIndex(const BatchBlock* blocks, std::size_t i)
+        : slot(static_cast<std::uint32_t>(i / kVoxelsPerBlock)) {
         const BatchBlock& block = blocks[slot];
-        const Vec3i at = place_of(static_cast<std::uint32_t>(i % kBlockCells)) +
+        const Vec3i at = index_from_z_order(static_cast<std::uint32_t>(i % kVoxelsPerBlock)) +
                          block.index * kBlockVoxels - block.lo;
         const bool inside = at.x >= 0 && at.x < block.size.x && at.y >= 0 && at.y < block.size.y &&
                             at.z >= 0 && at.z < block.size.z;
@@ -36,12 +36,12 @@ struct CountVoxelOp {
     std::uint16_t* lobes;
 
     HEDDLE_HD void operator()(std::size_t i) const {
-        const SumsPlace place(sums.blocks, i);
+        const SumsIndex place(sums.blocks, i);
         int count = 0;
         if (place.cell >= 0) {
             const BatchBlock& block = sums.blocks[place.slot];
             for (std::uint32_t p = 0; p < block.planes; ++p) {
-                const std::size_t at = std::size_t{block.first_plane + p} * kBlockCells +
+                const std::size_t at = std::size_t{block.first_plane + p} * kVoxelsPerBlock +
                                        static_cast<std::size_t>(place.cell);
                 count += sums.weight_at(at) != 0 ? 1 : 0;
             }
@@ -75,10 +75,10 @@ struct FitVoxelOp {
         }
         const std::uint32_t v = first_voxel[i];
         if (first_voxel[i + 1] == v) return;
-        const SumsPlace place(sums.blocks, i);
+        const SumsIndex place(sums.blocks, i);
         const auto cell = static_cast<std::size_t>(place.cell);
         const std::uint64_t* masks =
-            sums.masks + (std::size_t{place.slot} * kBlockCells + cell) * DenseLobe::kMaskWords;
+            sums.masks + (std::size_t{place.slot} * kVoxelsPerBlock + cell) * DenseLobe::kMaskWords;
         key[v] = i;
         for (int axis = 0; axis < 3; ++axis) columns[std::size_t{3} * v + axis] = masks[axis];
         int count = 0;
@@ -94,7 +94,7 @@ private:
     HEDDLE_HD void write_lobes(const BatchBlock& block, std::size_t cell, std::uint32_t to) const {
         std::uint32_t plane = block.first_plane;
         block.materials.for_each([&](std::uint32_t material) {
-            const std::size_t at = std::size_t{plane++} * kBlockCells + cell;
+            const std::size_t at = std::size_t{plane++} * kVoxelsPerBlock + cell;
             if (sums.weight_at(at) == 0) return;
             lobes[to] = lobe_at(material, at);
             if (maps != nullptr) {

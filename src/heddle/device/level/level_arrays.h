@@ -2,7 +2,7 @@
 
 #include <heddle/executor/array.h>
 #include <heddle/sggx/direction_sums.h>
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 
 #include <cstddef>
 #include <cstdint>

@@ -10,7 +10,7 @@ namespace detail {
 
 /// Fills a buffer of the host; the array is given back.
 template <typename Exec, typename T>
-void bring_down(Exec& exec, executor::Array<T> from, HostBuffer<T>& to) {
+void download_array(Exec& exec, executor::Array<T> from, HostBuffer<T>& to) {
     const std::span<T> room = to.resize(from.size());
     exec.download(room, static_cast<const T*>(from.data()));
 }
@@ -47,32 +47,32 @@ order_voxels(Exec& exec, const LevelArrays& level, std::size_t blocks, StoredLev
     auto first_lobe = exec.template make<std::uint32_t>(leaves + 1);
     exec.for_each(leaves + 1,
                   FirstLobesOp{first_voxel.data(), order.lobe_begin.data(), first_lobe.data()});
-    bring_down(exec, std::move(active), out.active);
-    bring_down(exec, std::move(first_voxel), out.first_voxel);
-    bring_down(exec, std::move(first_lobe), out.first_lobe);
-    bring_down(exec, std::move(lobe_count), out.lobe_count);
+    download_array(exec, std::move(active), out.active);
+    download_array(exec, std::move(first_voxel), out.first_voxel);
+    download_array(exec, std::move(first_lobe), out.first_lobe);
+    download_array(exec, std::move(lobe_count), out.lobe_count);
     return order;
 }
 
 template <typename Exec>
 void store_faces(Exec& exec, const LevelArrays& level, const StoredOrder& order, StoredLevel& out) {
     const std::size_t n = level.voxel_count;
-    const int cells = out.settings.fields.footprints;
+    const int cells = out.options.fields.footprints;
     auto coverage = exec.template make<Coverage>(n);
     auto footprint = exec.template make<std::uint64_t>(cells != 0 ? 3 * n : 0);
-    exec.for_each(3 * n, StoreFaceOp{level.level, out.settings.subvoxels, cells,
+    exec.for_each(3 * n, StoreFaceOp{level.level, out.options.subvoxels, cells,
                                      order.voxel_at.data(), level.hits.data(), level.columns.data(),
                                      coverage.data(), footprint.data()});
-    bring_down(exec, std::move(coverage), out.coverage);
-    bring_down(exec, std::move(footprint), out.footprint);
+    download_array(exec, std::move(coverage), out.coverage);
+    download_array(exec, std::move(footprint), out.footprint);
 }
 
 template <typename Exec>
 void store_lobes(Exec& exec, const LevelArrays& level, const StoredOrder& order, StoredLevel& out) {
-    const VoxelGridFields& fields = out.settings.fields;
+    const VoxelFields& fields = out.options.fields;
     const std::size_t n = level.voxel_count;
     const std::size_t m = level.lobe_count;
-    auto merges = exec.template make<std::uint32_t>(out.settings.max_lobes > 2 ? n : 0);
+    auto merges = exec.template make<std::uint32_t>(out.options.max_lobes > 2 ? n : 0);
     auto lobes = exec.template make<Lobe>(m);
     auto maps = exec.template make<LobeMaps>(fields.maps() ? m : 0);
     auto tangents = exec.template make<PackedSggx>(fields.tangents ? m : 0);
@@ -80,15 +80,15 @@ void store_lobes(Exec& exec, const LevelArrays& level, const StoredOrder& order,
                                   order.lobe_begin.data(), level.order.data(), level.lobes.data(),
                                   level.maps.data(), merges.data(), lobes.data(), maps.data(),
                                   tangents.data()});
-    bring_down(exec, std::move(merges), out.order);
-    bring_down(exec, std::move(lobes), out.lobes);
-    bring_down(exec, std::move(maps), out.maps);
-    bring_down(exec, std::move(tangents), out.tangents);
+    download_array(exec, std::move(merges), out.order);
+    download_array(exec, std::move(lobes), out.lobes);
+    download_array(exec, std::move(maps), out.maps);
+    download_array(exec, std::move(tangents), out.tangents);
 }
 
 template <typename Exec>
 void store_sums(Exec& exec, const LevelArrays& level, const StoredOrder& order, StoredLevel& out) {
-    const bool masks = out.settings.fields.masks;
+    const bool masks = out.options.fields.masks;
     const std::size_t n = masks ? level.voxel_count : 0;
     const std::size_t m = masks ? level.lobe_count : 0;
     auto columns = exec.template make<std::uint64_t>(3 * n);
@@ -97,9 +97,9 @@ void store_sums(Exec& exec, const LevelArrays& level, const StoredOrder& order, 
     exec.for_each(n, StoreSumsOp{order.voxel_at.data(), level.first_lobe.data(),
                                  order.lobe_begin.data(), level.columns.data(), level.lobes.data(),
                                  level.maps.data(), columns.data(), moments.data(), maps.data()});
-    bring_down(exec, std::move(columns), out.columns);
-    bring_down(exec, std::move(moments), out.moments);
-    bring_down(exec, std::move(maps), out.map_sums);
+    download_array(exec, std::move(columns), out.columns);
+    download_array(exec, std::move(moments), out.moments);
+    download_array(exec, std::move(maps), out.map_sums);
 }
 
 } // namespace detail
@@ -112,11 +112,11 @@ template <typename Exec>
 void store_level_arrays(Exec& exec,
                         const LevelArrays& level,
                         std::size_t blocks,
-                        const FitOptions& settings,
+                        const FitOptions& options,
                         StoredLevel& out) {
-    exec.set_stage("store");
+    exec.set_phase("store");
     out.level = level.level;
-    out.settings = settings;
+    out.options = options;
     const detail::StoredOrder order = detail::order_voxels(exec, level, blocks, out);
     detail::store_faces(exec, level, order, out);
     detail::store_lobes(exec, level, order, out);

@@ -24,15 +24,15 @@ struct LeafCells {
         return static_cast<std::size_t>(edge() * edge() * edge());
     }
     /// A voxel's leaf, and its bit in it.
-    struct Place {
+    struct LeafPosition {
         std::size_t leaf;
         int x;   ///< word
         int bit; ///< 8 y + z
     };
-    [[nodiscard]] HEDDLE_HD Place place(std::uint64_t key) const {
+    [[nodiscard]] HEDDLE_HD LeafPosition place(std::uint64_t key) const {
         const int shift = 15 - 3 * level;
         const std::uint64_t cell = key & ((std::uint64_t{1} << shift) - 1);
-        const Vec3i at = place_of(static_cast<std::uint32_t>(cell));
+        const Vec3i at = index_from_z_order(static_cast<std::uint32_t>(cell));
         const int leaf = ((at.x >> 3) * edge() + (at.y >> 3)) * edge() + (at.z >> 3);
         return {static_cast<std::size_t>(key >> shift) * per_block() +
                     static_cast<std::size_t>(leaf),
@@ -47,7 +47,7 @@ struct MarkLeavesOp {
     std::uint64_t* active; ///< 8 words a leaf
 
     HEDDLE_HD void operator()(std::size_t v) const {
-        const LeafCells::Place at = cells.place(key[v]);
+        const LeafCells::LeafPosition at = cells.place(key[v]);
         executor::atomic_or(active + 8 * at.leaf + at.x, std::uint64_t{1} << at.bit);
     }
 };
@@ -75,7 +75,7 @@ struct RankVoxelsOp {
     std::uint8_t* lobe_count;         ///< per stored voxel
 
     HEDDLE_HD void operator()(std::size_t v) const {
-        const LeafCells::Place at = cells.place(key[v]);
+        const LeafCells::LeafPosition at = cells.place(key[v]);
         const std::uint64_t* words = active + 8 * at.leaf;
         int before = count_bits(words[at.x] & ((std::uint64_t{1} << at.bit) - 1));
         for (int x = 0; x < at.x; ++x) before += count_bits(words[x]);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <heddle/device/level/host_buffer.h>
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 #include <heddle/voxelize/block/fit_options.h>
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace heddle {
 /// VoxelBlock, block after block.
 struct StoredLevel {
     int level = 0;
-    FitOptions settings;
+    FitOptions options;
     HostBuffer<std::uint64_t> active;                  ///< 8 words a leaf (LeafCells)
     HostBuffer<std::uint32_t> first_voxel, first_lobe; ///< per leaf, and the end
     HostBuffer<Coverage> coverage;

@@ -124,10 +124,10 @@ void check_writable(const CurveSet& set) {
     for (std::size_t c = 0; c < set.curve_count(); ++c) {
         const std::uint64_t n = set.first[c + 1] - set.first[c];
         const std::uint64_t least = min_point_count(set.basis, set.is_closed(c));
-        constexpr std::uint64_t kMost = std::numeric_limits<std::int32_t>::max();
-        if (n < least || n > kMost) {
+        constexpr std::uint64_t kMax = std::numeric_limits<std::int32_t>::max();
+        if (n < least || n > kMax) {
             refuse(str("curve ", c, " has ", n, " points, a .bcc file of its kind takes ", least,
-                       " to ", kMost));
+                       " to ", kMax));
         }
     }
 }

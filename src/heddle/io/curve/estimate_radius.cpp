@@ -111,12 +111,12 @@ private:
 
 /// Per curve, the mean length of a span (as two chords), from at most 256 of its spans.
 std::vector<double> measure_span_lengths(const CurveSet& set) {
-    constexpr std::size_t kMost = 256; // enough to tell a bend from a neighbour
+    constexpr std::size_t kMax = 256; // enough to tell a bend from a neighbour
     std::vector<double> span_length(set.curve_count(), 0.0);
     parallel_chunks(span_length.size(), 64, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c) {
             const std::size_t spans = set.span_count(c);
-            const std::size_t used = std::min(spans, kMost);
+            const std::size_t used = std::min(spans, kMax);
             double sum = 0.0;
             for (std::size_t i = 0; i < used; ++i) {
                 const BezierSpan b = bezier_span(set, c, i * spans / used);

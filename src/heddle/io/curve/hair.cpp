@@ -201,11 +201,10 @@ void check_writable(const CurveSet& set) {
     if (set.basis != Basis::Linear) {
         refuse("a .hair file holds polylines, these curves are cubic", "write a .bcc file");
     }
-    constexpr std::uint64_t kMost32 = std::numeric_limits<std::uint32_t>::max();
-    if (set.points.size() > kMost32) {
-        refuse(
-            str("a .hair file holds at most ", kMost32, " points, these are ", set.points.size()),
-            "write several files");
+    constexpr std::uint64_t kMax32 = std::numeric_limits<std::uint32_t>::max();
+    if (set.points.size() > kMax32) {
+        refuse(str("a .hair file holds at most ", kMax32, " points, these are ", set.points.size()),
+               "write several files");
     }
     for (std::size_t s = 0; s < set.curve_count(); ++s) {
         const std::uint64_t n = set.first[s + 1] - set.first[s];

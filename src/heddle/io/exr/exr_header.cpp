@@ -21,11 +21,11 @@ constexpr std::uint32_t kDeepOrParts = 0x1800;
 
 // Deflate compresses by at most 1032, the other methods less, and a pixel has at least two bytes.
 // DWA first writes an 8 x 8 block that is constant as one number.
-constexpr std::int64_t kMostPixelsPerByte = 1032;
-constexpr std::int64_t kMostPixelsPerByteDwa = 64 * 1032;
+constexpr std::int64_t kMaxPixelsPerByte = 1032;
+constexpr std::int64_t kMaxPixelsPerByteDwa = 64 * 1032;
 
 /// A tile may be larger than its picture; OpenEXR allocates whole tiles.
-constexpr std::int64_t kMostTilePixels = std::int64_t{1} << 22;
+constexpr std::int64_t kMaxTilePixels = std::int64_t{1} << 22;
 
 [[noreturn]] void
 fail(const std::string& path, std::size_t at, const std::string& what, const std::string& fix) {
@@ -71,9 +71,9 @@ void check_sizes(const Imf::Header& header, std::int64_t file_bytes, const std::
     const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
     const bool dwa = header.compression() == Imf::DWAA_COMPRESSION ||
                      header.compression() == Imf::DWAB_COMPRESSION;
-    const std::int64_t per_byte = dwa ? kMostPixelsPerByteDwa : kMostPixelsPerByte;
-    if (width < 1 || height < 1 || width > kMostSide || height > kMostSide ||
-        width * height > kMostPixels) {
+    const std::int64_t per_byte = dwa ? kMaxPixelsPerByteDwa : kMaxPixelsPerByte;
+    if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide ||
+        width * height > kMaxPixels) {
         fail(path, 0, str("says ", width, " x ", height, " px, the limit is 2^28 px"),
              "store a smaller picture");
     }
@@ -84,13 +84,13 @@ void check_sizes(const Imf::Header& header, std::int64_t file_bytes, const std::
     }
     std::int64_t channels = 0; // std::distance does not accept its iterators
     for (auto c = header.channels().begin(); c != header.channels().end(); ++c) ++channels;
-    if (channels > kMostChannels) {
-        fail(path, 0, str("has ", channels, " channels, the limit is ", kMostChannels),
+    if (channels > kMaxChannels) {
+        fail(path, 0, str("has ", channels, " channels, the limit is ", kMaxChannels),
              "store fewer");
     }
     if (!header.hasTileDescription()) return;
     const Imf::TileDescription& tile = header.tileDescription();
-    const std::int64_t limit = std::max(width * height, kMostTilePixels);
+    const std::int64_t limit = std::max(width * height, kMaxTilePixels);
     if (tile.xSize < 1 || tile.ySize < 1 || tile.xSize > limit / tile.ySize) {
         fail(
             path, 0,

@@ -9,9 +9,9 @@
 /// Limits that reading and writing share, and the checks before OpenEXR reads a file.
 namespace heddle::exr {
 
-inline constexpr std::int64_t kMostSide = 1 << 20;
-inline constexpr std::int64_t kMostPixels = std::int64_t{1} << 28;
-inline constexpr std::int64_t kMostChannels = 1024;
+inline constexpr std::int64_t kMaxSide = 1 << 20;
+inline constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28;
+inline constexpr std::int64_t kMaxChannels = 1024;
 
 /// Throws Error{BadFile} unless the attributes and sizes of the header are possible in a file of
 /// these bytes. OpenEXR allocates what a header asks for, so it must not read a false one.

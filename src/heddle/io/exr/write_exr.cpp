@@ -22,7 +22,7 @@
 namespace heddle {
 namespace {
 
-constexpr float kMostHalf = 65504.0f;
+constexpr float kMaxHalf = 65504.0f;
 
 /// A file that grows in memory; OpenEXR seeks back to write the offsets of its blocks.
 class MemoryOutput : public Imf::OStream {
@@ -58,14 +58,14 @@ void check_name(const std::string& name, const char* kind, std::set<std::string>
 }
 
 void check_picture(std::int64_t width, std::int64_t height, std::span<const ExrChannel> channels) {
-    if (width < 1 || height < 1 || width > exr::kMostSide || height > exr::kMostSide ||
-        width * height > exr::kMostPixels) {
+    if (width < 1 || height < 1 || width > exr::kMaxSide || height > exr::kMaxSide ||
+        width * height > exr::kMaxPixels) {
         refuse(str("a picture of ", width, " x ", height, " px cannot be written"),
                "use 1 to 2^20 px a side, at most 2^28 px");
     }
-    if (channels.empty() || channels.size() > static_cast<std::size_t>(exr::kMostChannels)) {
+    if (channels.empty() || channels.size() > static_cast<std::size_t>(exr::kMaxChannels)) {
         refuse(str("a picture of ", channels.size(), " channels cannot be written"),
-               str("use 1 to ", exr::kMostChannels));
+               str("use 1 to ", exr::kMaxChannels));
     }
     std::set<std::string> seen;
     for (const ExrChannel& channel : channels) {
@@ -103,7 +103,7 @@ Imf::Header make_header(std::int32_t width,
 std::vector<Imath::half> to_halves(std::span<const float> values) {
     std::vector<Imath::half> halves(values.size());
     std::transform(values.begin(), values.end(), halves.begin(), [](float x) {
-        return Imath::half(std::isnan(x) ? x : std::clamp(x, -kMostHalf, kMostHalf));
+        return Imath::half(std::isnan(x) ? x : std::clamp(x, -kMaxHalf, kMaxHalf));
     });
     return halves;
 }

@@ -15,8 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kMostBytes = 0xFFFFFFFF; // a .glb counts its bytes in 32 bits
-constexpr int kMaxNesting = 64;                  // of JSON; tinygltf recurses once per level
+constexpr std::uint64_t kMaxBytes = 0xFFFFFFFF; // a .glb counts its bytes in 32 bits
+constexpr int kMaxNesting = 64;                 // of JSON; tinygltf recurses once per level
 
 /// tinygltf also looks into the working folder: only the model's folder may answer.
 struct Files {
@@ -30,7 +30,7 @@ struct Files {
     static bool
     read(std::vector<unsigned char>* out, std::string* error, const std::string& name, void*) {
         try {
-            const std::string bytes = read_whole_file(name, kMostBytes);
+            const std::string bytes = read_whole_file(name, kMaxBytes);
             out->assign(bytes.begin(), bytes.end());
             return true;
         } catch (const Error& e) {
@@ -150,7 +150,7 @@ std::string parser_words(std::string text) {
 } // namespace
 
 GltfModel::GltfModel(const fs::path& path) : path_(path) {
-    const std::string bytes = read_whole_file(path.string(), kMostBytes);
+    const std::string bytes = read_whole_file(path.string(), kMaxBytes);
     parse(std::as_bytes(std::span{bytes}));
     for (const auto& buffer : model_.buffers) held_bytes_ += buffer.data.size();
     for (const std::string& name : model_.extensionsRequired) {

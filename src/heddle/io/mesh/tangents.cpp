@@ -48,13 +48,13 @@ std::vector<std::uint32_t> weld(const Mesh& mesh) {
     return welded;
 }
 
-struct Frame {
+struct TangentFrame {
     Vec3d along;          ///< direction of increasing u; not unit
     double uv_area = 0.0; ///< twice the signed area in (u, v); 0: no frame
 };
 
 /// The uv derivatives of a triangle                                          [Mikkelsen 2008, A.2]
-Frame frame_of(const Mesh& mesh, const std::array<std::uint32_t, 3>& corners) {
+TangentFrame frame_of(const Mesh& mesh, const std::array<std::uint32_t, 3>& corners) {
     const Vec3d p = to_double(mesh.positions[corners[0]]);
     const Vec3d d1 = to_double(mesh.positions[corners[1]]) - p;
     const Vec3d d2 = to_double(mesh.positions[corners[2]]) - p;
@@ -65,7 +65,7 @@ Frame frame_of(const Mesh& mesh, const std::array<std::uint32_t, 3>& corners) {
     const double v1 = double{b.v} - double{a.v};
     const double u2 = double{c.u} - double{a.u};
     const double v2 = double{c.v} - double{a.v};
-    Frame frame;
+    TangentFrame frame;
     frame.uv_area = u1 * v2 - u2 * v1;
     frame.along = (d1 * v2 - d2 * v1) * (frame.uv_area < 0.0 ? -1.0 : 1.0);
     if (!(length(frame.along) > 0.0) || !(length(cross(d1, d2)) > 0.0)) frame.uv_area = 0.0;
@@ -106,7 +106,7 @@ struct Edge {
 /// Joins the corners of triangles of equal handedness across their shared edges.
 CornerGroups group_corners(const Mesh& mesh,
                            const std::vector<std::uint32_t>& welded,
-                           const std::vector<Frame>& frames) {
+                           const std::vector<TangentFrame>& frames) {
     std::vector<Edge> edges;
     edges.reserve(3 * frames.size());
     for (std::uint32_t t = 0; t < frames.size(); ++t) {
@@ -141,7 +141,7 @@ Vec3d project(Vec3d v, Vec3d normal) {
 Vec3d weighted_tangent(const Mesh& mesh,
                        const std::array<std::uint32_t, 3>& corners,
                        std::uint32_t k,
-                       const Frame& frame) {
+                       const TangentFrame& frame) {
     const std::uint32_t at = corners[k];
     const Vec3d normal = normalize(to_double(mesh.normals[at]));
     const Vec3d p = to_double(mesh.positions[at]);
@@ -159,7 +159,7 @@ struct CornerTangents {
 };
 
 CornerTangents corner_tangents(const Mesh& mesh, const std::vector<std::uint32_t>& welded) {
-    std::vector<Frame> frames;
+    std::vector<TangentFrame> frames;
     frames.reserve(mesh.triangles.size());
     for (const auto& corners : mesh.triangles) frames.push_back(frame_of(mesh, corners));
     CornerGroups groups = group_corners(mesh, welded, frames);

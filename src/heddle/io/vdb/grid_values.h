@@ -3,7 +3,7 @@
 #include <heddle/sggx/eigen.h>
 #include <heddle/sggx/pack.h>
 #include <heddle/voxel/leaf_voxels.h>
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 
 #include <algorithm>
 #include <array>

@@ -99,7 +99,7 @@ struct LeavesByBlock {
 
     /// Calls body(group, leaf index, block, leaf) on all threads; each group runs on one.
     using Body = FunctionRef<void(std::size_t, std::size_t, const VoxelBlock&, const VoxelLeaf&)>;
-    void run(const VoxelSource& source, std::span<const LeafRef> leaves, Body body) const {
+    void run(const VoxelLevel& source, std::span<const LeafRef> leaves, Body body) const {
         parallel_chunks(first.size() - 1, 1, [&](std::size_t g, std::size_t) {
             VoxelBlock scratch;
             const VoxelBlock& block = source.block(leaves[order[first[g]]].block, scratch);
@@ -119,7 +119,7 @@ using LeafGather = FunctionRef<std::size_t(const VoxelBlock&, const VoxelLeaf&, 
 
 /// The leaves with at least one voxel that is active in the grid, with the masks of these voxels.
 inline std::vector<LeafRef>
-select_leaves(const VoxelSource& source, std::span<const LeafRef> all, LeafSelect select) {
+select_leaves(const VoxelLevel& source, std::span<const LeafRef> all, LeafSelect select) {
     std::vector<LeafRef> leaves(all.begin(), all.end());
     LeavesByBlock(all, 0, all.size())
         .run(source, all,
@@ -137,7 +137,7 @@ inline constexpr std::size_t kBatchLeaves = 4096;
 /// Encodes the masks and values of the leaves, in order.
 template <typename Value>
 void write_buffers(std::ostream& out,
-                   const VoxelSource& source,
+                   const VoxelLevel& source,
                    std::span<const LeafRef> leaves,
                    LeafGather<Value> gather,
                    Progress& progress) {

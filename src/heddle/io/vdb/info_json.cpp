@@ -165,8 +165,8 @@ void add_counts(Writer& to, const LevelCounts& level, const Lattice& lattice) {
 }
 
 /// A level's info: `about`, shared by all levels, with the finest lattice, and its counts.
-VoxelGridInfo make_level(const VoxelGridInfo& about, int level, const json& counts) {
-    VoxelGridInfo info = about;
+VoxelLevelInfo make_level(const VoxelLevelInfo& about, int level, const json& counts) {
+    VoxelLevelInfo info = about;
     info.level = level;
     info.lattice = lattice_of_level(about.lattice, level);
     const Reader read{counts};
@@ -178,7 +178,7 @@ VoxelGridInfo make_level(const VoxelGridInfo& about, int level, const json& coun
     return info;
 }
 
-void check_info(const VoxelGridInfo& info) {
+void check_info(const VoxelLevelInfo& info) {
     for (int a = 0; a < 3; ++a) {
         const double h = info.lattice.voxel_size[a];
         if (!(std::isfinite(h) && h > 0.0)) {
@@ -209,7 +209,7 @@ std::string materials_to_json(const std::vector<Material>& materials) {
     return dump(list);
 }
 
-InfoJson to_json(const VoxelGridInfo& finest, std::span<const LevelCounts> levels) {
+InfoJson to_json(const VoxelLevelInfo& finest, std::span<const LevelCounts> levels) {
     Writer about;
     visit_info(about, finest);
     add_counts(about, levels[0], finest.lattice); // of level 0, as in files of one level
@@ -231,9 +231,9 @@ InfoJson to_json(const VoxelGridInfo& finest, std::span<const LevelCounts> level
     return {dump(about.out), materials_to_json(finest.materials), dump(yarns)};
 }
 
-std::vector<VoxelGridInfo> infos_from_json(const InfoJson& text, const std::string& path) {
+std::vector<VoxelLevelInfo> infos_from_json(const InfoJson& text, const std::string& path) {
     try {
-        VoxelGridInfo info;
+        VoxelLevelInfo info;
         const json about = json::parse(text.info);
         const Reader read_info{about};
         visit_info(read_info, info);
@@ -254,7 +254,7 @@ std::vector<VoxelGridInfo> infos_from_json(const InfoJson& text, const std::stri
             throw std::runtime_error(
                 str(levels.size(), " levels (allowed: 1 to ", kMaxLevels, ")"));
         }
-        std::vector<VoxelGridInfo> infos;
+        std::vector<VoxelLevelInfo> infos;
         for (std::size_t i = 0; i < levels.size(); ++i) {
             infos.push_back(make_level(info, static_cast<int>(i), levels[i]));
         }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 
 #include <span>
 #include <string>
@@ -25,7 +25,7 @@ struct LevelCounts {
 
 /// @param finest  level 0; its own counts are ignored
 /// @param levels  finest first, at least one
-[[nodiscard]] InfoJson to_json(const VoxelGridInfo& finest, std::span<const LevelCounts> levels);
+[[nodiscard]] InfoJson to_json(const VoxelLevelInfo& finest, std::span<const LevelCounts> levels);
 
 /// The metadata string `heddle_materials`.
 [[nodiscard]] std::string materials_to_json(const std::vector<Material>& materials);
@@ -34,7 +34,7 @@ struct LevelCounts {
 /// keeps its default.
 /// @param path    for messages
 /// @throws Error  BadFile: a key is missing, of another type or out of range
-[[nodiscard]] std::vector<VoxelGridInfo> infos_from_json(const InfoJson& json,
-                                                         const std::string& path);
+[[nodiscard]] std::vector<VoxelLevelInfo> infos_from_json(const InfoJson& json,
+                                                          const std::string& path);
 
 } // namespace heddle

@@ -10,13 +10,13 @@ namespace heddle {
 /// The properties of a level that decide which grids it has.
 struct LevelGrids {
     int level = 0;
-    VoxelGridFields fields;
+    VoxelFields fields;
     int lobes = 0;      ///< largest number of any voxel
     bool merge = false; ///< has merge orders
 };
 
 /// Whether a level has masks: only level 0 does, although all levels have the same fields.
-[[nodiscard]] inline bool has_masks(const VoxelGridFields& fields, int level) {
+[[nodiscard]] inline bool has_masks(const VoxelFields& fields, int level) {
     return fields.masks && level == 0;
 }
 

@@ -68,13 +68,13 @@ void size_arrays(VoxelBlock& block, const LevelGrids& of) {
 
 class LevelReader {
 public:
-    LevelReader(const std::string& path, const VdbContents& file, const VoxelGridInfo& info)
-        : path_(path), file_(file), grid_(std::make_unique<VoxelGrid>()) {
+    LevelReader(const std::string& path, const VdbContents& file, const VoxelLevelInfo& info)
+        : path_(path), file_(file), grid_(std::make_unique<MemoryLevel>()) {
         grid_->set_info(info);
     }
 
-    std::unique_ptr<VoxelGrid> run() {
-        const VoxelGridInfo& info = grid_->info();
+    std::unique_ptr<MemoryLevel> run() {
+        const VoxelLevelInfo& info = grid_->info();
         const int lobes = read_lobes();
         const LevelGrids of{info.level, info.fields, lobes,
                             file_.find(grid_name(GridKind::Merge, 0, info.level)) != nullptr};
@@ -114,7 +114,7 @@ private:
     /// Makes the blocks with their voxels and lobes only.
     /// @return  the largest number of lobes of a voxel
     int read_lobes() {
-        const VoxelGridInfo& info = grid_->info();
+        const VoxelLevelInfo& info = grid_->info();
         const GridLeaves coverage =
             read(grid_name(GridKind::Coverage, 0, info.level), CoverageValues{});
         std::vector<GridLeaves> lobes;
@@ -189,7 +189,7 @@ private:
     }
 
     void check_counts(std::size_t lobes_in_grids) const {
-        const VoxelGridInfo& info = grid_->info();
+        const VoxelLevelInfo& info = grid_->info();
         const std::string level = info.level > 0 ? str("level ", info.level, " ") : "";
         std::int64_t voxels = 0, lobes = 0;
         for (const VoxelBlock& b : grid_->blocks) {
@@ -265,13 +265,13 @@ private:
 
     const std::string& path_;
     const VdbContents& file_;
-    std::unique_ptr<VoxelGrid> grid_;
+    std::unique_ptr<MemoryLevel> grid_;
 };
 
 } // namespace
 
-std::unique_ptr<VoxelGrid>
-read_level(const std::string& path, const VdbContents& file, const VoxelGridInfo& info) {
+std::unique_ptr<MemoryLevel>
+read_level(const std::string& path, const VdbContents& file, const VoxelLevelInfo& info) {
     return LevelReader(path, file, info).run();
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <heddle/io/vdb/vdb_file.h>
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 
 #include <memory>
 #include <string>
@@ -13,7 +13,7 @@ namespace heddle {
 /// @param info    of the level, including the fields
 /// @throws Error  BadFile: a grid is missing, damaged or inconsistent with `coverage`; counts
 ///                differ from `info`; an invalid lobe or merge order
-[[nodiscard]] std::unique_ptr<VoxelGrid>
-read_level(const std::string& path, const VdbContents& file, const VoxelGridInfo& info);
+[[nodiscard]] std::unique_ptr<MemoryLevel>
+read_level(const std::string& path, const VdbContents& file, const VoxelLevelInfo& info);
 
 } // namespace heddle

@@ -65,7 +65,7 @@ TEST_F(VdbLevels, EveryArrayOfEveryLevelReadsBackAsItWas) {
 TEST_F(VdbLevels, InfosOfLevelsDifferInLatticeLevelAndCountsAlone) {
     VoxelLevels levels = make_levels(3, 4);
     grid_of(levels, 2) = testing::make_helix(10.0, 2.0, 1);
-    VoxelGridInfo& coarse = grid_of(levels, 2).info();
+    VoxelLevelInfo& coarse = grid_of(levels, 2).info();
     const std::int64_t voxels = coarse.voxel_count;
     coarse = grid_of(levels, 1).info();
     coarse.level = 2;
@@ -76,7 +76,7 @@ TEST_F(VdbLevels, InfosOfLevelsDifferInLatticeLevelAndCountsAlone) {
     grid_of(levels, 0).info().materials.resize(3);
     grid_of(levels, 0).info().approximate = true;
 
-    const std::vector<VoxelGridInfo> infos = read_infos(write(levels));
+    const std::vector<VoxelLevelInfo> infos = read_infos(write(levels));
     ASSERT_EQ(infos.size(), 3u);
     for (std::size_t i = 0; i < 3; ++i) {
         EXPECT_EQ(infos[i].level, static_cast<std::int32_t>(i));
@@ -180,7 +180,7 @@ TEST_F(VdbLevels, LevelsThatAreMissingDoubledOrOutOfPlaceAreRefused) {
 }
 
 TEST_F(VdbLevels, AFileFromBeforeThereWereLevelsReadsAsOne) {
-    VoxelGrid grid = testing::make_mixed();
+    MemoryLevel grid = testing::make_mixed();
     write_vdb(grid, file("new.vdb"), progress_);
     std::string bytes = testing::slurp(file("new.vdb"));
     for (const char* key : {"\"levels\"", "\"lod\"", "\"approximate\""}) {
@@ -270,7 +270,7 @@ TEST_F(VdbLevels, PredictedSizeOfLevelsIsAnUpperBoundAndNotFar) {
     const VoxelLevels levels = make_levels(3, 8, {-40, 0, 40});
     std::vector<LevelSize> sizes;
     for (std::size_t i = 0; i < levels.size(); ++i) {
-        const VoxelGridInfo& info = levels[i]->info();
+        const VoxelLevelInfo& info = levels[i]->info();
         LevelSize& size = sizes.emplace_back(0, info.voxel_count, info.lobe_count);
         for (const VoxelBlock& b : grid_of(levels, i).blocks) {
             size.leaves += static_cast<std::int64_t>(b.leaves.size());

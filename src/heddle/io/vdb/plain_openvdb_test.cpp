@@ -22,7 +22,7 @@ struct PlainGrids {
     openvdb::Vec3SGrid::Ptr tangent;
 };
 
-PlainGrids write_and_read(const VoxelGrid& grid) {
+PlainGrids write_and_read(const MemoryLevel& grid) {
     const auto path = std::filesystem::temp_directory_path() / "heddle_plain_openvdb.vdb";
     Progress progress;
     write_vdb(grid, path.string(), progress);
@@ -39,7 +39,7 @@ PlainGrids write_and_read(const VoxelGrid& grid) {
 }
 
 TEST(PlainOpenVdb, DensityAndTangentStandWhereTheVoxelsAre) {
-    VoxelGrid grid = testing::make_helix(12.0, 2.0, 1);
+    MemoryLevel grid = testing::make_helix(12.0, 2.0, 1);
     grid.info().lattice.voxel_size = {0.5, 0.25, 2.0};
     const auto [density, tangent] = write_and_read(grid);
 
@@ -73,7 +73,7 @@ TEST(PlainOpenVdb, DensityAndTangentStandWhereTheVoxelsAre) {
 TEST(PlainOpenVdb, DensityOfLevelTwoStandsOnItsCoarserLattice) {
     const auto path = std::filesystem::temp_directory_path() / "heddle_plain_levels.vdb";
     const VoxelLevels levels = testing::make_levels(3);
-    VoxelGrid& coarse = testing::grid_of(levels, 2);
+    MemoryLevel& coarse = testing::grid_of(levels, 2);
     coarse.blocks[0].coverage[0] = {65535, 65535, 65535, 65535};
     Progress progress;
     write_vdb(levels, path.string(), progress);
@@ -103,7 +103,7 @@ TEST(PlainOpenVdb, DensityOfLevelTwoStandsOnItsCoarserLattice) {
 
 TEST(PlainOpenVdb, VoxelsOfMicrometresKeepTheirSize) {
     for (const Vec3d size : {Vec3d{2e-6, 2e-6, 2e-6}, Vec3d{2e-6, 1e-6, 4e-6}}) {
-        VoxelGrid grid = testing::make_helix(4.0, 1.0, 1);
+        MemoryLevel grid = testing::make_helix(4.0, 1.0, 1);
         grid.info().lattice.voxel_size = size;
         const auto density = write_and_read(grid).density;
         const openvdb::Vec3d at = density->indexToWorld(openvdb::Coord(10, 20, 30));

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -29,7 +29,7 @@ namespace detail {
 
 /// The bytes of the grids of one level.
 [[nodiscard]] inline std::int64_t
-predict_level_bytes(const LevelSize& of, const VoxelGridFields& fields, bool masks) {
+predict_level_bytes(const LevelSize& of, const VoxelFields& fields, bool masks) {
     const std::int64_t per_leaf_masks = 64 + 64 + 1 + 16; // topology, buffer, flag, Blosc's header
     const std::int64_t sums = masks ? (fields.map_sums() ? 19 : 7) : 0;
     const std::int64_t lobe_grids = 1 + fields.albedo + fields.surface + fields.tangents + sums;
@@ -57,7 +57,7 @@ predict_level_bytes(const LevelSize& of, const VoxelGridFields& fields, bool mas
 /// @param levels  finest first
 /// @param fields  as the grids have them; masks are only counted for level 0
 [[nodiscard]] inline VdbBytes predict_vdb_bytes(std::span<const LevelSize> levels,
-                                                const VoxelGridFields& fields) {
+                                                const VoxelFields& fields) {
     VdbBytes out{kVdbWriterBytes, std::int64_t{16} << 10};
     for (std::size_t l = 0; l < levels.size(); ++l) {
         out.memory += levels[l].leaves * kVdbWriterBytesPerLeaf;
@@ -70,7 +70,7 @@ predict_level_bytes(const LevelSize& of, const VoxelGridFields& fields, bool mas
 [[nodiscard]] inline VdbBytes predict_vdb_bytes(std::int64_t leaves,
                                                 std::int64_t voxels,
                                                 std::int64_t lobes,
-                                                const VoxelGridFields& fields) {
+                                                const VoxelFields& fields) {
     const LevelSize one{leaves, voxels, lobes};
     return predict_vdb_bytes({&one, 1}, fields);
 }

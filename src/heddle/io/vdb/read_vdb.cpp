@@ -15,7 +15,7 @@ namespace {
 /// An opened file whose voxels are not read yet.
 struct OpenFile {
     VdbContents contents;
-    std::vector<VoxelGridInfo> levels; ///< finest first, with their fields
+    std::vector<VoxelLevelInfo> levels; ///< finest first, with their fields
 };
 
 [[noreturn]] void fail(const std::string& path, const std::string& what) {
@@ -68,7 +68,7 @@ void check_levels(const std::string& path, const VdbContents& file, std::size_t 
 }
 
 /// The fields that exist as a grid at any level: the reader then reports those missing in others.
-VoxelGridFields find_fields(const std::string& path, const VdbContents& file) {
+VoxelFields find_fields(const std::string& path, const VdbContents& file) {
     std::set<std::string> stems;
     for (const GridEntry& e : file.grids) stems.insert(split_grid_name(e.name).stem);
     const auto has = [&](GridKind kind) { return stems.contains(grid_name(kind)); };
@@ -76,7 +76,7 @@ VoxelGridFields find_fields(const std::string& path, const VdbContents& file) {
         const auto at = stems.lower_bound(start);
         return at != stems.end() && at->starts_with(start);
     };
-    VoxelGridFields fields;
+    VoxelFields fields;
     fields.albedo = has(GridKind::Albedo);
     fields.surface = has(GridKind::Surface);
     fields.tangents = has(GridKind::Aniso);
@@ -94,18 +94,18 @@ OpenFile open(const std::string& path) {
     const auto text = [&](const char* name) { return file.contents.metadata.at(name); };
     file.levels = infos_from_json({text(kInfoKey), text(kMaterialsKey), text(kYarnsKey)}, path);
     check_levels(path, file.contents, file.levels.size());
-    const VoxelGridFields fields = find_fields(path, file.contents);
-    for (VoxelGridInfo& info : file.levels) info.fields = fields;
+    const VoxelFields fields = find_fields(path, file.contents);
+    for (VoxelLevelInfo& info : file.levels) info.fields = fields;
     return file;
 }
 
 } // namespace
 
-std::vector<VoxelGridInfo> read_infos(const std::string& path) {
+std::vector<VoxelLevelInfo> read_infos(const std::string& path) {
     return open(path).levels;
 }
 
-std::unique_ptr<VoxelGrid> read_vdb(const std::string& path, int level) {
+std::unique_ptr<MemoryLevel> read_vdb(const std::string& path, int level) {
     const OpenFile file = open(path);
     const int n = static_cast<int>(file.levels.size());
     if (level < 0 || level >= n) {
@@ -119,7 +119,7 @@ std::unique_ptr<VoxelGrid> read_vdb(const std::string& path, int level) {
 VoxelLevels read_levels(const std::string& path) {
     const OpenFile file = open(path);
     VoxelLevels levels;
-    for (const VoxelGridInfo& info : file.levels) {
+    for (const VoxelLevelInfo& info : file.levels) {
         levels.push_back(read_level(path, file.contents, info));
     }
     return levels;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 
 #include <memory>
 #include <string>
@@ -12,7 +12,7 @@ namespace heddle {
 /// @throws Error  NotFound; BadFile: not a VDB, truncated, not Heddle's (its grids are listed),
 ///                unusable metadata, a missing level, a duplicate grid; Unsupported: a later
 ///                format, or as read_contents
-[[nodiscard]] std::vector<VoxelGridInfo> read_infos(const std::string& path);
+[[nodiscard]] std::vector<VoxelLevelInfo> read_infos(const std::string& path);
 
 /// Reads one level.
 ///
@@ -23,9 +23,9 @@ namespace heddle {
 /// @throws Error  as read_infos; NotFound: no such level (tells how many exist); BadFile: a grid is
 ///                missing or inconsistent with `coverage`, counts differ from the metadata, a lobe
 ///                has weight 0, no material or is not positive definite, an invalid merge order
-[[nodiscard]] std::unique_ptr<VoxelGrid> read_vdb(const std::string& path, int level = 0);
+[[nodiscard]] std::unique_ptr<MemoryLevel> read_vdb(const std::string& path, int level = 0);
 
-/// Reads all levels, each as a VoxelGrid.
+/// Reads all levels, each as a MemoryLevel.
 /// @throws Error  as read_vdb
 [[nodiscard]] VoxelLevels read_levels(const std::string& path);
 

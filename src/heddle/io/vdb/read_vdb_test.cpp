@@ -35,8 +35,8 @@ std::string read_error(const std::string& path) {
 }
 
 /// Writes a helix that `change` has broken, and returns the message of reading it.
-std::string error_of(const std::function<void(VoxelGrid&)>& change) {
-    VoxelGrid grid = testing::make_helix(10.0, 2.0, 1);
+std::string error_of(const std::function<void(MemoryLevel&)>& change) {
+    MemoryLevel grid = testing::make_helix(10.0, 2.0, 1);
     change(grid);
     const std::string path = temp("heddle_read_broken.vdb");
     Progress progress;
@@ -47,14 +47,14 @@ std::string error_of(const std::function<void(VoxelGrid&)>& change) {
 }
 
 /// One lobe per voxel, all in one node of 128^3: a file of about 50 kB.
-VoxelGrid make_small() {
+MemoryLevel make_small() {
     testing::VoxelMap voxels;
     for (int i = 0; i < 600; ++i) {
         testing::TestVoxel& v = voxels[{i % 13, i % 29, 3 + i / 20}];
         v.coverage = {static_cast<std::uint16_t>(i * 100), 5, 6, 7};
         v.lobes = {{testing::needle({0.6f, 0.8f, 0.0f}), 255, 0}};
     }
-    VoxelGrid grid;
+    MemoryLevel grid;
     grid.info().materials.resize(1);
     grid.blocks = testing::make_blocks(voxels);
     testing::count_voxels(grid);
@@ -62,12 +62,12 @@ VoxelGrid make_small() {
 }
 
 /// A file of some 40 kB, nearly all of it the masks of the nodes above the only leaf.
-VoxelGrid make_one_voxel() {
+MemoryLevel make_one_voxel() {
     testing::VoxelMap voxels;
     testing::TestVoxel& v = voxels[{1, 2, 3}];
     v.coverage = {4, 5, 6, 7};
     v.lobes = {{testing::needle({0.6f, 0.8f, 0.0f}), 255, 0}};
-    VoxelGrid grid;
+    MemoryLevel grid;
     grid.info().materials.resize(1);
     grid.blocks = testing::make_blocks(voxels);
     testing::count_voxels(grid);
@@ -118,10 +118,10 @@ TEST(ReadVdb, FlippedBytesGiveAnErrorOrVoxelsNeverACrash) {
 }
 
 TEST(ReadVdb, LobesThatCannotBeAreRefused) {
-    EXPECT_EQ(error_of([](VoxelGrid&) {}), "");
-    EXPECT_NE(error_of([](VoxelGrid& g) { g.blocks[0].lobes[3].weight = 0; }).find("weight 0"),
+    EXPECT_EQ(error_of([](MemoryLevel&) {}), "");
+    EXPECT_NE(error_of([](MemoryLevel& g) { g.blocks[0].lobes[3].weight = 0; }).find("weight 0"),
               std::string::npos);
-    EXPECT_NE(error_of([](VoxelGrid& g) {
+    EXPECT_NE(error_of([](MemoryLevel& g) {
                   g.blocks[0].lobes[3].sggx.r[0] = g.blocks[0].lobes[3].sggx.r[1] = 255;
               }).find("not positive definite"),
               std::string::npos);

@@ -80,7 +80,7 @@ TEST_F(ReplaceMaterials, OpenVdbReadsWhatWasWritten) {
 
 TEST_F(ReplaceMaterials, AFileWithoutGridsOrAnotherCountIsHandled) {
     const std::string empty = folder_.file("empty.vdb");
-    VoxelGrid grid;
+    MemoryLevel grid;
     grid.info().materials.resize(1);
     write_vdb(grid, empty, progress_);
     grid.info().materials[0].name = "dust";

@@ -15,8 +15,8 @@ namespace heddle::testing {
 /// A grid with 1 to 3 lobes, two kinds of material, all fields, negative indices and several nodes
 /// of each size.
 /// @param shifts  of clusters of 300 voxels, along all axes
-inline VoxelGrid make_mixed(int block_voxels = 32,
-                            const std::vector<int>& shifts = {-9000, -40, 0, 130, 5000}) {
+inline MemoryLevel make_mixed(int block_voxels = 32,
+                              const std::vector<int>& shifts = {-9000, -40, 0, 130, 5000}) {
     VoxelMap voxels;
     CounterRandom random{3, 1};
     for (const int shift : shifts) {
@@ -35,7 +35,7 @@ inline VoxelGrid make_mixed(int block_voxels = 32,
             }
         }
     }
-    VoxelGrid grid;
+    MemoryLevel grid;
     grid.info().name = "mixed \"quoted\"";
     grid.info().lattice = {{0.1, 0.25, 0.3}, 4};
     grid.info().fields = {true, true, true};
@@ -55,8 +55,8 @@ inline VoxelGrid make_mixed(int block_voxels = 32,
 
 /// Adds the arrays of levels to a grid whose `about` is complete: bytes that depend on the index of
 /// the voxel or lobe, and valid merge orders.
-inline void add_level_arrays(VoxelGrid& grid) {
-    const VoxelGridFields& has = grid.info().fields;
+inline void add_level_arrays(MemoryLevel& grid) {
+    const VoxelFields& has = grid.info().fields;
     const bool masks = has.masks && grid.info().level == 0;
     CounterRandom random{11, static_cast<std::uint64_t>(grid.info().level)};
     const auto any = [&] { return static_cast<std::int64_t>(random.next()); };
@@ -91,8 +91,8 @@ inline VoxelLevels
 make_levels(int count, std::int32_t footprints = 8, const std::vector<int>& shifts = {0}) {
     VoxelLevels levels;
     for (int level = 0; level < count; ++level) {
-        auto grid = std::make_unique<VoxelGrid>(make_mixed(32, shifts));
-        VoxelGridInfo& about = grid->info();
+        auto grid = std::make_unique<MemoryLevel>(make_mixed(32, shifts));
+        VoxelLevelInfo& about = grid->info();
         about.lattice = lattice_of_level(about.lattice, level);
         about.level = level;
         about.lod = "moments";
@@ -105,13 +105,13 @@ make_levels(int count, std::int32_t footprints = 8, const std::vector<int>& shif
     return levels;
 }
 
-inline VoxelGrid& grid_of(const VoxelLevels& levels, std::size_t i) {
-    return dynamic_cast<VoxelGrid&>(*levels[i]);
+inline MemoryLevel& grid_of(const VoxelLevels& levels, std::size_t i) {
+    return dynamic_cast<MemoryLevel&>(*levels[i]);
 }
 
 using Leaves = std::map<std::tuple<int, int, int>, std::pair<const VoxelBlock*, const VoxelLeaf*>>;
 
-inline Leaves leaves_of(const VoxelGrid& grid) {
+inline Leaves leaves_of(const MemoryLevel& grid) {
     Leaves leaves;
     for (const VoxelBlock& b : grid.blocks) {
         for (const VoxelLeaf& l : b.leaves) {
@@ -129,7 +129,7 @@ std::vector<T> slice(const std::vector<T>& all, std::size_t begin, std::size_t n
 }
 
 /// Expects the same voxels in the same leaves, regardless of blocks.
-inline void expect_same_voxels(const VoxelGrid& a, const VoxelGrid& b) {
+inline void expect_same_voxels(const MemoryLevel& a, const MemoryLevel& b) {
     const Leaves left = leaves_of(a), right = leaves_of(b);
     ASSERT_EQ(left.size(), right.size());
     for (const auto& [origin, from] : left) {

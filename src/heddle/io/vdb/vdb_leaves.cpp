@@ -16,9 +16,9 @@ namespace {
 }
 
 /// Throws unless every array has the length that the writer assumes.
-void check_arrays(const VoxelBlock& block, const VoxelGridInfo& info) {
+void check_arrays(const VoxelBlock& block, const VoxelLevelInfo& info) {
     const std::size_t voxels = block.coverage.size(), lobes = block.lobes.size();
-    const VoxelGridFields& has = info.fields;
+    const VoxelFields& has = info.fields;
     const bool masks = has_masks(has, info.level);
     const auto is = [](const auto& array, bool wanted, std::size_t size) {
         return !wanted || array.size() == size;
@@ -77,8 +77,8 @@ auto tree_order(const LeafRef& ref) {
 
 } // namespace
 
-VdbLeaves list_vdb_leaves(const VoxelSource& source, const Progress& progress) {
-    const VoxelGridInfo& info = source.info();
+VdbLeaves list_vdb_leaves(const VoxelLevel& source, const Progress& progress) {
+    const VoxelLevelInfo& info = source.info();
     const auto walk = [&](std::size_t begin, std::size_t end) {
         VdbLeaves part;
         VoxelBlock scratch;

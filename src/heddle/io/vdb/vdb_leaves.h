@@ -2,7 +2,7 @@
 
 #include <heddle/base/progress.h>
 #include <heddle/voxel/index_box.h>
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 
 #include <array>
 #include <cstdint>
@@ -53,6 +53,6 @@ struct VdbLeaves {
 /// Visits the source once, on all threads.
 /// @throws Error  Internal: two blocks have the same leaf, an array does not have the length that
 ///                its block's fields say, or only some voxels have a merge order; Cancelled
-[[nodiscard]] VdbLeaves list_vdb_leaves(const VoxelSource& source, const Progress& progress);
+[[nodiscard]] VdbLeaves list_vdb_leaves(const VoxelLevel& source, const Progress& progress);
 
 } // namespace heddle

@@ -72,11 +72,11 @@ struct HalfDirectionValues : DirectionValues {
 };
 
 /// A level to write, and its leaves.
-struct Level {
-    const VoxelSource& source;
+struct LevelToWrite {
+    const VoxelLevel& source;
     VdbLeaves found;
 
-    [[nodiscard]] const VoxelGridInfo& info() const { return source.info(); }
+    [[nodiscard]] const VoxelLevelInfo& info() const { return source.info(); }
     [[nodiscard]] LevelGrids grids() const {
         return {info().level, info().fields, found.most_lobes, found.merge_voxels > 0};
     }
@@ -98,7 +98,7 @@ public:
 
     /// @param leaves  those with a voxel that is active in the grid, with the masks of these voxels
     template <typename Values>
-    void write(const Level& level,
+    void write(const LevelToWrite& level,
                const std::string& name,
                const Values& values,
                std::span<const LeafRef> leaves) {
@@ -119,7 +119,7 @@ private:
     using GridBase = openvdb::GridBase;
 
     template <typename Stored>
-    void write_leaves(const Level& level,
+    void write_leaves(const LevelToWrite& level,
                       const std::string& name,
                       std::span<const LeafRef> leaves,
                       LeafGather<Stored> gather) {
@@ -155,7 +155,7 @@ private:
 
     /// The metadata of openvdb::io::File, without its extra compression to measure sizes.
     static openvdb::MetaMap
-    describe(const Level& level, std::span<const LeafRef> leaves, std::size_t value_bytes) {
+    describe(const LevelToWrite& level, std::span<const LeafRef> leaves, std::size_t value_bytes) {
         std::int64_t voxels = 0;
         for (const LeafRef& leaf : leaves) {
             for (std::uint64_t w : leaf.active) voxels += std::popcount(w);
@@ -181,7 +181,7 @@ private:
 /// Writes the grids of one level.
 class LevelWriter {
 public:
-    LevelWriter(Archive& archive, const Level& level) : archive_(archive), level_(level) {}
+    LevelWriter(Archive& archive, const LevelToWrite& level) : archive_(archive), level_(level) {}
 
     void write() {
         write_derived();
@@ -197,7 +197,7 @@ public:
     }
 
     /// The number of grids that write() writes.
-    [[nodiscard]] static int count(const Level& level) {
+    [[nodiscard]] static int count(const LevelToWrite& level) {
         int grids = 1 + (level.found.fiber_voxels > 0) + (level.found.surface_voxels > 0);
         for_each_grid(level.grids(), [&](const std::string&, const auto&) { ++grids; });
         return grids;
@@ -206,7 +206,7 @@ public:
 private:
     /// Writes the density and directions, for programs that do not know the other grids.
     void write_derived() {
-        const VoxelGridInfo& info = level_.info();
+        const VoxelLevelInfo& info = level_.info();
         const auto name = [&](GridKind kind) { return grid_name(kind, 0, info.level); };
         const std::span<const LeafRef> all = level_.found.leaves;
         archive_.write(level_, name(GridKind::Density), DensityValues(info.lattice), all);
@@ -244,13 +244,13 @@ private:
     }
 
     Archive& archive_;
-    const Level& level_;
+    const LevelToWrite& level_;
     std::vector<LeafRef> selected_;
 };
 
-openvdb::MetaMap make_metadata(std::span<const Level> levels) {
+openvdb::MetaMap make_metadata(std::span<const LevelToWrite> levels) {
     std::vector<LevelCounts> counts;
-    for (const Level& level : levels) {
+    for (const LevelToWrite& level : levels) {
         const VdbLeaves& found = level.found;
         counts.push_back({found.voxel_count, found.lobe_count, found.box.lo, found.box.hi});
     }
@@ -265,7 +265,7 @@ openvdb::MetaMap make_metadata(std::span<const Level> levels) {
 }
 
 /// Throws unless the levels share one lattice and are in order, finest first.
-void check_levels(std::span<const VoxelSource* const> levels) {
+void check_levels(std::span<const VoxelLevel* const> levels) {
     const auto fail = [](const std::string& what) {
         throw Error(ErrorCode::Internal, "write vdb: " + what);
     };
@@ -273,7 +273,7 @@ void check_levels(std::span<const VoxelSource* const> levels) {
         fail(str(levels.size(), " levels (allowed: 1 to ", kMaxLevels, ")"));
     }
     for (std::size_t i = 0; i < levels.size(); ++i) {
-        const VoxelGridInfo& info = levels[i]->info();
+        const VoxelLevelInfo& info = levels[i]->info();
         const Lattice want = lattice_of_level(levels[0]->info().lattice, static_cast<int>(i));
         if (info.level != static_cast<std::int32_t>(i) ||
             info.lattice.voxel_size != want.voxel_size ||
@@ -287,10 +287,10 @@ void check_levels(std::span<const VoxelSource* const> levels) {
     }
 }
 
-void write_grids(std::ostream& out, std::span<const Level> levels, Progress& progress) {
+void write_grids(std::ostream& out, std::span<const LevelToWrite> levels, Progress& progress) {
     int grids = 0;
     std::int64_t work = 0;
-    for (const Level& level : levels) {
+    for (const LevelToWrite& level : levels) {
         const int n = LevelWriter::count(level);
         grids += n;
         work += static_cast<std::int64_t>(level.found.leaves.size()) * n;
@@ -298,17 +298,17 @@ void write_grids(std::ostream& out, std::span<const Level> levels, Progress& pro
     progress.begin("write", "leaves", work);
     Archive archive(out, progress);
     archive.write_head(make_metadata(levels), grids);
-    for (const Level& level : levels) LevelWriter(archive, level).write();
+    for (const LevelToWrite& level : levels) LevelWriter(archive, level).write();
 }
 
-void write_sources(std::span<const VoxelSource* const> sources,
+void write_sources(std::span<const VoxelLevel* const> sources,
                    const std::string& path,
                    Progress& progress) {
     OutputFile file(path); // first: an output that cannot be written is reported early
     check_levels(sources);
     openvdb::initialize();
-    std::vector<Level> levels;
-    for (const VoxelSource* source : sources) {
+    std::vector<LevelToWrite> levels;
+    for (const VoxelLevel* source : sources) {
         levels.push_back({*source, list_vdb_leaves(*source, progress)});
     }
     try {
@@ -331,13 +331,13 @@ void write_sources(std::span<const VoxelSource* const> sources,
 } // namespace
 
 void write_vdb(const VoxelLevels& levels, const std::string& path, Progress& progress) {
-    std::vector<const VoxelSource*> sources;
-    for (const std::unique_ptr<VoxelSource>& level : levels) sources.push_back(level.get());
+    std::vector<const VoxelLevel*> sources;
+    for (const std::unique_ptr<VoxelLevel>& level : levels) sources.push_back(level.get());
     write_sources(sources, path, progress);
 }
 
-void write_vdb(const VoxelSource& source, const std::string& path, Progress& progress) {
-    const VoxelSource* const one = &source;
+void write_vdb(const VoxelLevel& source, const std::string& path, Progress& progress) {
+    const VoxelLevel* const one = &source;
     write_sources({&one, 1}, path, progress);
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <heddle/base/progress.h>
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 
 #include <string>
 
@@ -23,6 +23,6 @@ void write_vdb(const VoxelLevels& levels, const std::string& path, Progress& pro
 
 /// The same for an object of one level.
 /// @param source  level 0
-void write_vdb(const VoxelSource& source, const std::string& path, Progress& progress);
+void write_vdb(const VoxelLevel& source, const std::string& path, Progress& progress);
 
 } // namespace heddle

@@ -30,7 +30,7 @@ protected:
 };
 
 TEST_F(WriteVdb, ReadsBackEveryVoxelAsItWas) {
-    const VoxelGrid grid = make_mixed();
+    const MemoryLevel grid = make_mixed();
     write_vdb(grid, file("a.vdb"), progress_);
     const auto back = read_vdb(file("a.vdb"));
     expect_same_voxels(grid, *back);
@@ -38,9 +38,9 @@ TEST_F(WriteVdb, ReadsBackEveryVoxelAsItWas) {
 }
 
 TEST_F(WriteVdb, ReadsBackWhatIsKnownOfTheObject) {
-    const VoxelGrid grid = make_mixed();
+    const MemoryLevel grid = make_mixed();
     write_vdb(grid, file("a.vdb"), progress_);
-    const VoxelGridInfo info = read_vdb(file("a.vdb"))->info();
+    const VoxelLevelInfo info = read_vdb(file("a.vdb"))->info();
     EXPECT_EQ(info.name, grid.info().name);
     EXPECT_EQ(info.command, grid.info().command);
     EXPECT_EQ(info.lattice.voxel_size, grid.info().lattice.voxel_size);
@@ -57,7 +57,7 @@ TEST_F(WriteVdb, ReadsBackWhatIsKnownOfTheObject) {
 }
 
 TEST_F(WriteVdb, AGridWithoutFieldsHasNoGridsForThem) {
-    VoxelGrid grid = testing::make_helix(10.0, 2.0, 1);
+    MemoryLevel grid = testing::make_helix(10.0, 2.0, 1);
     write_vdb(grid, file("a.vdb"), progress_);
     std::vector<std::string> names;
     for (const GridSummary& g : summarize_vdb(file("a.vdb"))) names.push_back(g.name);
@@ -66,7 +66,7 @@ TEST_F(WriteVdb, AGridWithoutFieldsHasNoGridsForThem) {
 }
 
 TEST_F(WriteVdb, AnEmptyGridIsWrittenAndReadBack) {
-    VoxelGrid grid;
+    MemoryLevel grid;
     write_vdb(grid, file("a.vdb"), progress_);
     EXPECT_EQ(read_vdb(file("a.vdb"))->blocks.size(), 0u);
 }
@@ -77,7 +77,7 @@ TEST_F(WriteVdb, ContentHashDependsOnVoxelsNotOnBlocksOrThreads) {
     set_thread_count(5);
     write_vdb(make_mixed(16), file("b.vdb"), progress_);
     set_thread_count(0);
-    VoxelGrid changed = make_mixed();
+    MemoryLevel changed = make_mixed();
     changed.blocks[0].coverage[0].x ^= 1;
     changed.info().fields = {};
     for (VoxelBlock& b : changed.blocks) {
@@ -107,7 +107,7 @@ TEST_F(WriteVdb, ContentHashDependsOnVoxelsNotOnBlocksOrThreads) {
 }
 
 TEST_F(WriteVdb, PredictedSizeIsAnUpperBoundAndNotFar) {
-    const VoxelGrid grid = testing::make_helix(60.0, 8.0, 2);
+    const MemoryLevel grid = testing::make_helix(60.0, 8.0, 2);
     write_vdb(grid, file("a.vdb"), progress_);
     std::int64_t leaves = 0;
     for (const VoxelBlock& b : grid.blocks) leaves += static_cast<std::int64_t>(b.leaves.size());
@@ -129,7 +129,7 @@ TEST_F(WriteVdb, ACancelledWriteLeavesTheOldFileAndNothingElse) {
 }
 
 TEST_F(WriteVdb, AnOutputThatCannotBeWrittenIsOneLine) {
-    const VoxelGrid grid = testing::make_helix(10.0, 2.0, 1);
+    const MemoryLevel grid = testing::make_helix(10.0, 2.0, 1);
     for (const std::string& path :
          {file("none/a.vdb"), folder_.path(), std::string("/proc/self/a.vdb")}) {
         const auto error = testing::error_of([&] { write_vdb(grid, path, progress_); });

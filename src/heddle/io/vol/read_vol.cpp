@@ -34,7 +34,7 @@ struct BlockCounts {
     std::int64_t isotropic = 0;
 };
 
-class VolSource final : public VoxelSource {
+class VolSource final : public VoxelLevel {
 public:
     VolSource(const VolLayout& layout, const VolOptions& options, double scale, Vec3i origin)
         : layout_(layout), origin_(origin), medium_(layout.pitch, scale) {
@@ -255,7 +255,7 @@ VolVolume read_vol(const VolLayout& layout, const VolOptions& options, Progress&
     const double scale = given ? options.density_scale : default_density_scale(layout.pitch);
     auto source = std::make_unique<VolSource>(layout, options, scale, origin);
     const BlockCounts counts = count_voxels(*source, progress);
-    VoxelGridInfo info = source->info();
+    VoxelLevelInfo info = source->info();
     info.voxel_count = info.lobe_count = counts.voxels;
     source->set_info(std::move(info));
     VolVolume out;

@@ -2,7 +2,7 @@
 
 #include <heddle/base/progress.h>
 #include <heddle/io/vol/vol_layout.h>
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 
 #include <memory>
 #include <string>
@@ -21,7 +21,7 @@ struct VolOptions {
 
 /// Level 0 made from a .vol, and notes for the user, one sentence each.
 struct VolVolume {
-    std::unique_ptr<VoxelSource> grid;
+    std::unique_ptr<VoxelLevel> grid;
     std::vector<std::string> notes;
 };
 

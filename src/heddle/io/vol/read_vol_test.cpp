@@ -48,7 +48,7 @@ TEST(ReadVol, AVoxelHasItsDirectionsLobeAndOneFiberMaterial) {
     EXPECT_EQ(voxels.at({1, 1, 0}).lobe.sggx, VolMedium::lobe({}));
     EXPECT_TRUE(has_note(volume, "1 of 8 voxels have no direction"));
     EXPECT_TRUE(has_note(volume, "density scale 2:"));
-    const VoxelGridInfo& info = volume.grid->info();
+    const VoxelLevelInfo& info = volume.grid->info();
     EXPECT_EQ(info.level, 0);
     EXPECT_FALSE(info.approximate);
     EXPECT_EQ(info.max_lobes, 5);

@@ -4,7 +4,7 @@
 
 #include <heddle/io/file/test_files.h>
 #include <heddle/io/vol/read_vol.h>
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 
 #include <map>
 #include <string>
@@ -72,7 +72,7 @@ struct TestVoxel {
 using TestVoxels = std::map<std::tuple<int, int, int>, TestVoxel>;
 
 /// All voxels of a source with one lobe per voxel; also checks the guarantees of VoxelBlock.
-inline TestVoxels voxels_of(const VoxelSource& source) {
+inline TestVoxels voxels_of(const VoxelLevel& source) {
     TestVoxels out;
     VoxelBlock scratch;
     for (std::size_t i = 0; i < source.block_count(); ++i) {

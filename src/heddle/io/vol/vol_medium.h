@@ -2,7 +2,7 @@
 
 #include <heddle/base/vec.h>
 #include <heddle/sggx/packed.h>
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 
 namespace heddle {
 

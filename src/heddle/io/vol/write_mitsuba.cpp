@@ -157,8 +157,8 @@ MitsubaBox plan_mitsuba(const FlakeField& field, double pad) {
         voxels *= box.size[a];
     }
     box.bounds = {corner(box.low, h), corner(box.low + box.size, h)};
-    constexpr double kMost = 1e17; // more than any memory, and its bytes fit 64 bits
-    box.voxels = static_cast<std::int64_t>(std::min(voxels, kMost));
+    constexpr double kMax = 1e17; // more than any memory, and its bytes fit 64 bits
+    box.voxels = static_cast<std::int64_t>(std::min(voxels, kMax));
     box.bytes = box.voxels * (field.albedo_varies() ? 40 : 28);
     return box;
 }

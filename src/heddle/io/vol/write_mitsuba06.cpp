@@ -20,8 +20,8 @@
 namespace heddle {
 namespace {
 
-constexpr std::int64_t kMostSamples = std::int64_t{1} << 31; ///< samples of a block
-constexpr std::int32_t kMostBlocks = 999;                    ///< three digits in a file's name
+constexpr std::int64_t kMaxSamples = std::int64_t{1} << 31; ///< samples of a block
+constexpr std::int32_t kMaxBlocks = 999;                    ///< three digits in a file's name
 constexpr std::uint8_t kNoDirection = 255;
 
 /// The sample that a voxel becomes.
@@ -72,8 +72,8 @@ double extinction(const Coverage& c, const Lattice& lattice) {
 }
 
 template <typename Visit>
-void for_each_sample(const VoxelSource& source, Progress& progress, const Visit& visit) {
-    const VoxelGridInfo& info = source.info();
+void for_each_sample(const VoxelLevel& source, Progress& progress, const Visit& visit) {
+    const VoxelLevelInfo& info = source.info();
     VoxelBlock scratch;
     for (std::size_t b = 0; b < source.block_count(); ++b) {
         progress.check();
@@ -287,15 +287,15 @@ Blocks plan_blocks(const Extent& extent, std::int32_t asked) {
         const std::int32_t pitch = asked == 0 ? steps : asked - 1;
         blocks.samples[a] = pitch + 1;
         blocks.cells[a] = (steps + pitch - 1) / pitch;
-        if (blocks.cells[a] > kMostBlocks) {
+        if (blocks.cells[a] > kMaxBlocks) {
             throw Error(ErrorCode::InvalidArgument,
                         str("export: ", blocks.cells[a], " blocks of ", asked, " samples along ",
                             "xyz"[a], " (limit 999)"),
                         "export larger blocks, or a coarser --level");
         }
-        samples = std::min(samples * blocks.samples[a], kMostSamples + 1);
+        samples = std::min(samples * blocks.samples[a], kMaxSamples + 1);
     }
-    if (samples > kMostSamples) {
+    if (samples > kMaxSamples) {
         throw Error(ErrorCode::InvalidArgument,
                     "export: one block of more than 2^31 samples (limit 2^31)",
                     "export smaller blocks, or a coarser --level");
@@ -305,7 +305,7 @@ Blocks plan_blocks(const Extent& extent, std::int32_t asked) {
 
 } // namespace
 
-Mitsuba06Files write_mitsuba06(const VoxelSource& source,
+Mitsuba06Files write_mitsuba06(const VoxelLevel& source,
                                const std::string& folder,
                                const Mitsuba06Options& options,
                                Progress& progress) {

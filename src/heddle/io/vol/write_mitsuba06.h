@@ -1,7 +1,7 @@
 #pragma once
 
 #include <heddle/base/progress.h>
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 
 #include <cstdint>
 #include <string>
@@ -34,7 +34,7 @@ struct Mitsuba06Files {
 /// docs/import.md); the densest voxel has 255. The folder is created.
 /// @throws Error  InvalidArgument: no voxels, more than 999 blocks along an axis, or one block of
 ///                more than 2^31 samples; CannotWrite; Cancelled
-Mitsuba06Files write_mitsuba06(const VoxelSource& source,
+Mitsuba06Files write_mitsuba06(const VoxelLevel& source,
                                const std::string& folder,
                                const Mitsuba06Options& options,
                                Progress& progress);

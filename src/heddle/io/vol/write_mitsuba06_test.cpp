@@ -24,8 +24,8 @@ Vec3f tangent_of(int i) {
 }
 
 /// A row of fiber voxels along x, each with its own direction and density.
-VoxelGrid row() {
-    VoxelGrid grid;
+MemoryLevel row() {
+    MemoryLevel grid;
     grid.info().lattice = {{0.5, 0.5, 0.5}, 8};
     grid.info().materials.resize(1);
     grid.info().materials[0].kind = MaterialKind::Fiber;
@@ -58,7 +58,7 @@ TEST(WriteMitsuba06, IsReadBackEqualWithinItsBytes) {
     const testing::TempFolder folder;
     const std::string path = folder.file("out");
     Progress silent;
-    const VoxelGrid grid = row();
+    const MemoryLevel grid = row();
     const Mitsuba06Files files = write_mitsuba06(grid, path, {}, silent);
     EXPECT_EQ(files.blocks, 3);
     EXPECT_EQ(files.no_fiber, 0);
@@ -91,7 +91,7 @@ TEST(WriteMitsuba06, IsReadBackEqualWithinItsBytes) {
 TEST(WriteMitsuba06, BlocksOfAnySizeAreReadBackAlike) {
     const testing::TempFolder folder;
     Progress silent;
-    const VoxelGrid grid = row();
+    const MemoryLevel grid = row();
     testing::TestVoxels first;
     for (const std::int32_t edge : {64, 0, 2, 17, 100}) {
         const std::string path = folder.file("out" + std::to_string(edge));
@@ -133,10 +133,10 @@ TEST(WriteMitsuba06, TheSceneNamesTheFilesAndTheScale) {
 TEST(WriteMitsuba06, SurfacesHaveNoDirectionAndNothingIsAnError) {
     const testing::TempFolder folder;
     Progress silent;
-    VoxelGrid grid = row();
+    MemoryLevel grid = row();
     grid.info().materials[0].kind = MaterialKind::Surface;
     EXPECT_EQ(write_mitsuba06(grid, folder.file("out"), {}, silent).no_fiber, kVoxels);
-    EXPECT_THROW((void)write_mitsuba06(VoxelGrid{}, folder.file("none"), {}, silent), Error);
+    EXPECT_THROW((void)write_mitsuba06(MemoryLevel{}, folder.file("none"), {}, silent), Error);
     grid.blocks.back().leaves.back().origin = {70000, 8, -8};
     EXPECT_THROW((void)write_mitsuba06(grid, folder.file("far"), {}, silent), Error);
 }

@@ -17,8 +17,8 @@ namespace heddle {
 namespace {
 
 /// Two voxels of one leaf: a fiber along z at (1, 2, 3), a disc that faces x at (6, 2, 3).
-VoxelGrid two_voxels(bool colors) {
-    VoxelGrid grid;
+MemoryLevel two_voxels(bool colors) {
+    MemoryLevel grid;
     grid.info().lattice = {{0.5, 0.5, 0.25}, 8};
     grid.info().materials.resize(2);
     grid.info().materials[0].kind = MaterialKind::Fiber;
@@ -36,7 +36,7 @@ VoxelGrid two_voxels(bool colors) {
     return grid;
 }
 
-std::vector<Vec3f> albedo_of(const VoxelGrid& grid) {
+std::vector<Vec3f> albedo_of(const MemoryLevel& grid) {
     std::vector<Vec3f> out;
     for (const Material& m : grid.info().materials) out.push_back(m.albedo);
     return out;
@@ -74,7 +74,7 @@ protected:
                       .string();
     }
     void TearDown() override { std::filesystem::remove_all(folder_); }
-    MitsubaBox write(const VoxelGrid& grid, double pad) {
+    MitsubaBox write(const MemoryLevel& grid, double pad) {
         const FlakeField field(grid, albedo_of(grid));
         const MitsubaBox box = plan_mitsuba(field, pad);
         Progress progress;
@@ -140,7 +140,7 @@ TEST_F(WriteMitsuba, AlbedoIsWrittenWhereItVaries) {
 }
 
 TEST_F(WriteMitsuba, ABoxBeyondMemoryIsRefusedBeforeAnythingIsWritten) {
-    const VoxelGrid grid = two_voxels(false);
+    const MemoryLevel grid = two_voxels(false);
     const FlakeField field(grid, albedo_of(grid));
     Progress progress;
     EXPECT_THROW(write_mitsuba(field, plan_mitsuba(field, 1e6), folder_, progress), Error);

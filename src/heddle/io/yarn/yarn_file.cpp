@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A yarn file has about 30 lines: a larger file is of another kind.
-constexpr std::uint64_t kMostBytes = 1 << 20;
+constexpr std::uint64_t kMaxBytes = 1 << 20;
 
 const YarnPreset* find_preset(const std::string& name) {
     for (const YarnPreset& preset : yarn_presets()) {
@@ -34,7 +34,7 @@ const YarnPreset* find_preset(const std::string& name) {
 std::string read_text(const std::string& path) {
     std::error_code ignored;
     if (!fs::exists(path, ignored)) throw_unknown(path);
-    return read_whole_file(path, kMostBytes);
+    return read_whole_file(path, kMaxBytes);
 }
 
 } // namespace
@@ -58,7 +58,7 @@ YarnFile read_yarn(const std::string& preset_or_path, const LoadTexture& load_te
 }
 
 std::string set_fiber_count(YarnType& yarn, std::int64_t total) {
-    const std::int64_t most = yarn.model == YarnModel::Solid ? 1 : yarn_form::kMostFibers;
+    const std::int64_t most = yarn.model == YarnModel::Solid ? 1 : yarn_form::kMaxFibers;
     if (total < 1 || total > most) {
         throw Error(
             ErrorCode::InvalidArgument,

@@ -122,8 +122,8 @@ void set_field(YarnType& yarn,
 }
 
 std::string complete(YarnType& yarn, FileProblems& problems) {
-    if (yarn.fiber_count() > kMostFibers) {
-        problems.add(0, str("the yarn has ", yarn.fiber_count(), " fibers, at most ", kMostFibers,
+    if (yarn.fiber_count() > kMaxFibers) {
+        problems.add(0, str("the yarn has ", yarn.fiber_count(), " fibers, at most ", kMaxFibers,
                             " are allowed"));
     }
     if (yarn.migration_min > yarn.migration_max) {

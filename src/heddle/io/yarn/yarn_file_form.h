@@ -12,7 +12,7 @@
 /// Shared by both textual formats of a yarn: the fields, their ranges and the problems found.
 namespace heddle::yarn_form {
 
-inline constexpr std::int64_t kMostFibers = 1'000'000;
+inline constexpr std::int64_t kMaxFibers = 1'000'000;
 
 /// A pointer to a number, flag or pair of YarnType.
 using Member = std::variant<float YarnType::*,

@@ -9,8 +9,8 @@
 #include <heddle/job/level/scratch_folder.h>
 #include <heddle/job/option_error.h>
 #include <heddle/job/output_place.h>
+#include <heddle/lod/level_subset.h>
 #include <heddle/lod/rebuild_levels.h>
-#include <heddle/lod/source_part.h>
 
 #include <algorithm>
 #include <utility>
@@ -66,7 +66,7 @@ std::vector<GridSummary> weigh(const VoxelLevels& levels, Progress& progress) {
 
 /// Bytes in a file of the levels above 0, which are written for it under an empty level 0.
 std::vector<std::int64_t> weigh_above(VoxelLevels levels, Progress& progress) {
-    auto finest = std::make_unique<VoxelGrid>();
+    auto finest = std::make_unique<MemoryLevel>();
     finest->info() = levels[0]->info();
     finest->info().fields.masks = false;
     finest->info().voxel_count = finest->info().lobe_count = 0;
@@ -77,25 +77,25 @@ std::vector<std::int64_t> weigh_above(VoxelLevels levels, Progress& progress) {
 /// The finest level and what lies above it: all, or a part without levels.
 struct Scope {
     const VoxelLevels& whole;
-    std::unique_ptr<SourcePart> part;
+    std::unique_ptr<LevelSubset> part;
 
-    [[nodiscard]] const VoxelSource& finest() const { return part ? *part : *whole[0]; }
+    [[nodiscard]] const VoxelLevel& finest() const { return part ? *part : *whole[0]; }
     [[nodiscard]] VoxelLevels share() const {
         if (!part) return share_levels(whole);
         VoxelLevels one;
-        one.push_back(std::make_unique<SourcePart>(*part));
+        one.push_back(std::make_unique<LevelSubset>(*part));
         return one;
     }
 };
 
 Scope scope_of(const VoxelLevels& levels, const MeasureLevelsOptions& options) {
     Scope scope{levels, nullptr};
-    const VoxelSource& finest = *levels[0];
+    const VoxelLevel& finest = *levels[0];
     const std::int64_t wanted =
         options.part.value_or(is_slow(options.methods) ? kSlowPart : finest.info().voxel_count);
     if (wanted < finest.info().voxel_count) {
         scope.part =
-            std::make_unique<SourcePart>(finest, choose_blocks(finest, wanted, options.seed));
+            std::make_unique<LevelSubset>(finest, choose_blocks(finest, wanted, options.seed));
     }
     return scope;
 }
@@ -140,7 +140,7 @@ MethodRow build(const Scope& scope,
 
 /// Says what the numbers stand for, so that a table can be read alone.
 void describe(const Scope& scope, const std::vector<GridSummary>& grids, LevelTable& table) {
-    const VoxelGridInfo& whole = scope.whole[0]->info();
+    const VoxelLevelInfo& whole = scope.whole[0]->info();
     table.lod = whole.lod;
     table.approximate = !whole.fields.masks;
     table.voxels = scope.finest().info().voxel_count;

@@ -17,19 +17,20 @@ struct MeasureLevelsOptions {
     /// levels are built by each of these
     std::vector<LodMethod> methods{LodMethod::Moments, LodMethod::Single, LodMethod::Naive,
                                    LodMethod::Random, LodMethod::Interpolate};
-    int parents = 2000;               ///< voxels of a level that are measured, at most, >= 1
-    std::optional<std::int64_t> part; ///< voxels of the finest level that all is built and measured
-                                      ///< on, about; none: all, 50,000 with `wasserstein`
-    std::optional<int> lobes; ///< most in a voxel of the built levels, 1 to 8; none: as there is
+    int parents = 2000; ///< voxels of a level that are measured, at most, >= 1
+    std::optional<std::int64_t>
+        part{};                 ///< voxels of the finest level that all is built and measured
+                                ///< on, about; none: all, 50,000 with `wasserstein`
+    std::optional<int> lobes{}; ///< most in a voxel of the built levels, 1 to 8; none: as there is
     std::uint64_t seed = 0;
-    std::optional<std::string> plot; ///< path of an .svg that shows the errors by level
+    std::optional<std::string> plot{}; ///< path of an .svg that shows the errors by level
 };
 
 /// What was found of one method, or of the levels that are there.
 struct MethodRow {
-    std::optional<double> build_seconds; ///< all levels, one pass; none of those that are there
-    std::vector<std::int64_t> bytes;     ///< of the grids in a .vdb, by level from 0
-    MethodErrors errors;
+    std::optional<double> build_seconds{}; ///< all levels, one pass; none of those that are there
+    std::vector<std::int64_t> bytes{};     ///< of the grids in a .vdb, by level from 0
+    MethodErrors errors{};
 
     [[nodiscard]] std::int64_t bytes_at(int level) const {
         const auto at = static_cast<std::size_t>(level);
@@ -45,19 +46,19 @@ struct MethodRow {
 
 /// What was found of all.
 struct LevelTable {
-    std::string file;         ///< path; empty: in memory
-    std::string lod;          ///< method by which its own levels were built
+    std::string file{};       ///< path; empty: in memory
+    std::string lod{};        ///< method by which its own levels were built
     bool approximate = false; ///< it has no sums: levels are built from stored lobes
     CoverageTruth coverage = CoverageTruth::None;
     std::int64_t voxels = 0; ///< of the finest level, in the part
     std::int64_t lobes = 0;
-    std::int64_t part_of = 0;             ///< voxels of the whole; 0: nothing was left out
-    std::int64_t finest_bytes = 0;        ///< level 0 of the whole without columns and sums
-    std::int64_t mask_bytes = 0;          ///< its columns and sums
-    std::vector<std::int64_t> file_bytes; ///< by level
-    std::vector<MethodRow> methods;       ///< "file" first unless there is a part
-    std::vector<std::string> notes;
-    StageTimes stages;
+    std::int64_t part_of = 0;               ///< voxels of the whole; 0: nothing was left out
+    std::int64_t finest_bytes = 0;          ///< level 0 of the whole without columns and sums
+    std::int64_t mask_bytes = 0;            ///< its columns and sums
+    std::vector<std::int64_t> file_bytes{}; ///< by level
+    std::vector<MethodRow> methods{};       ///< "file" first unless there is a part
+    std::vector<std::string> notes{};
+    StageTimes stages{};
     std::int64_t peak_bytes = 0; ///< resident, of the process so far
 };
 

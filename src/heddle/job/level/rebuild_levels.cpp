@@ -24,9 +24,9 @@ LodOptions asked_levels(const RebuildLevelsOptions& options) {
 
 /// The file's levels, and those that are built while the old ones are there.
 /// @throws Error  OutOfMemory
-void check_memory(const std::vector<VoxelGridInfo>& infos, const std::string& path) {
+void check_memory(const std::vector<VoxelLevelInfo>& infos, const std::string& path) {
     std::int64_t needed = std::int64_t{64} << 20;
-    for (const VoxelGridInfo& info : infos) {
+    for (const VoxelLevelInfo& info : infos) {
         const std::int64_t leaves = info.voxel_count / 16; // of 512 voxels, thinly filled
         const std::int64_t bytes =
             predict_block_bytes(leaves, info.voxel_count, info.lobe_count, info.fields);
@@ -85,7 +85,7 @@ RebuildLevelsReport rebuild_levels_to_file(const std::string& path,
     const LodOptions lod = asked_levels(options);
     check_output(output, ".vdb");
     clock.begin("read", "files", 1);
-    const std::vector<VoxelGridInfo> infos = read_infos(path);
+    const std::vector<VoxelLevelInfo> infos = read_infos(path);
     check_memory(infos, path);
     if (options.exact && !infos.front().fields.masks) {
         throw Error(ErrorCode::BadFile,

@@ -14,24 +14,24 @@ namespace heddle::job {
 /// How levels of detail are built again. Nothing is required.
 struct RebuildLevelsOptions {
     LodMethod lod = LodMethod::Moments;
-    std::optional<int> levels; ///< above the finest, at most; none: all
-    std::optional<int> lobes;  ///< most in a voxel above the finest, 1 to 8; none: as the finest
-    bool exact = false;        ///< refuses what has no masks: its levels would be approximate
+    std::optional<int> levels{}; ///< above the finest, at most; none: all
+    std::optional<int> lobes{};  ///< most in a voxel above the finest, 1 to 8; none: as the finest
+    bool exact = false;          ///< refuses what has no masks: its levels would be approximate
     std::uint64_t seed = 0;
 };
 
 struct RebuildLevelsReport {
-    LevelCounts counts;
+    LevelCounts counts{};
     bool approximate = false; ///< the levels were built from stored lobes, not from sums
-    std::vector<std::string> notes;
-    StageTimes stages;
+    std::vector<std::string> notes{};
+    StageTimes stages{};
     double seconds = 0.0;
     std::int64_t peak_bytes = 0; ///< resident, of the process so far
 };
 
 struct RebuildLevelsResult {
-    VoxelLevels levels; ///< finest first
-    RebuildLevelsReport report;
+    VoxelLevels levels{}; ///< finest first
+    RebuildLevelsReport report{};
 };
 
 /// Builds the levels over the finest one again.

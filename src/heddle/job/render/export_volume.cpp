@@ -29,7 +29,7 @@ void check_export_options(const ExportOptions& o) {
     }
 }
 
-void write_blocks(const VoxelSource& voxels,
+void write_blocks(const VoxelLevel& voxels,
                   const std::string& folder,
                   const ExportOptions& options,
                   ExportReport& report,
@@ -53,7 +53,7 @@ void write_grids(const FlakeField& field,
     write_output([&] { write_mitsuba(field, *report.box, folder, progress); });
 }
 
-FlakeField field_of(const VoxelSource& voxels) {
+FlakeField field_of(const VoxelLevel& voxels) {
     std::vector<Vec3f> albedo;
     for (const Material& material : voxels.info().materials) albedo.push_back(material.albedo);
     return {voxels, albedo};
@@ -67,7 +67,7 @@ void finish_report(ExportReport& report, StageClock& clock) {
 
 } // namespace
 
-ExportReport export_volume(const VoxelSource& voxels,
+ExportReport export_volume(const VoxelLevel& voxels,
                            const std::string& folder,
                            const ExportOptions& options,
                            Progress& progress) {
@@ -90,7 +90,7 @@ ExportReport export_volume(const std::string& path,
     StageClock clock(progress);
     check_export_options(options);
     clock.begin("read", "files", 1);
-    std::unique_ptr<VoxelGrid> grid = read_vdb(path, options.level);
+    std::unique_ptr<MemoryLevel> grid = read_vdb(path, options.level);
     ExportReport report;
     if (options.to == ExportFormat::Mitsuba06) {
         write_blocks(*grid, folder, options, report, clock);

@@ -13,7 +13,7 @@ PreviewImage draw(const std::string& path,
                   std::int64_t& voxels,
                   Progress& progress) {
     progress.begin("read", "files", 1);
-    const std::unique_ptr<VoxelGrid> grid = read_vdb(path, level);
+    const std::unique_ptr<MemoryLevel> grid = read_vdb(path, level);
     progress.check();
     voxels = grid->info().voxel_count;
     return render_preview(*grid, options, progress);

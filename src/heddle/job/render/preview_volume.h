@@ -13,7 +13,7 @@ struct PreviewReport {
     std::int64_t voxels = 0; ///< of the level
     std::int32_t width = 0;  ///< px
     std::int32_t height = 0;
-    StageTimes stages;
+    StageTimes stages{};
 };
 
 /// A picture of one level of a .vdb; of voxels in memory: render_preview.

@@ -33,7 +33,9 @@ protected:
 };
 
 TEST_F(PictureJob, ThePreviewInAFileIsTheOneInMemory) {
-    const PreviewOptions options{.width = 32, .height = 24};
+    PreviewOptions options;
+    options.width = 32;
+    options.height = 24;
     const PreviewImage image = preview_volume(path_, 1, options, silent_);
     const PreviewReport report =
         preview_volume_to_file(path_, folder_.file("a.png"), 1, options, silent_);
@@ -77,7 +79,7 @@ TEST_F(PictureJob, ARenderIsRefusedOrCancelled) {
 }
 
 TEST_F(PictureJob, AVolumeInMemoryIsExportedAsOneOfAFile) {
-    const std::unique_ptr<VoxelGrid> grid = read_vdb(path_, 0);
+    const std::unique_ptr<MemoryLevel> grid = read_vdb(path_, 0);
     for (const ExportFormat to : {ExportFormat::Mitsuba3, ExportFormat::Mitsuba06}) {
         const ExportOptions options{.to = to};
         const ExportReport report = export_volume(path_, folder_.file("file"), options, silent_);

@@ -32,9 +32,9 @@ void write_scene(const viewer::Session& session, const std::string& volume) {
 
 /// Takes a picture, and the session that has drawn it.
 using TakeFrame = std::function<void(
-    std::int64_t frame, const viewer::ViewImage& image, const viewer::Session& session)>;
+    std::int64_t frame, const viewer::RgbImage& image, const viewer::Session& session)>;
 
-FramesReport draw(const viewer::Subject& subject,
+FramesReport draw(const viewer::ViewedObject& subject,
                   const ViewOptions& options,
                   std::int64_t frames,
                   const TakeFrame& take,
@@ -52,7 +52,7 @@ FramesReport draw(const viewer::Subject& subject,
     for (std::int64_t f = 0; f < frames; ++f) {
         clock.check();
         viewer::SliceTimes times;
-        const viewer::ViewImage image = session.draw_now(&times);
+        const viewer::RgbImage image = session.draw_now(&times);
         take(f, image, session);
         now.orbit.turn(-2.0 * std::numbers::pi * each, 0.0);
         session.set(now);
@@ -70,7 +70,7 @@ FramesReport draw(const viewer::Subject& subject,
 }
 
 /// @return  what was assumed or left out
-std::vector<std::string> load_curves(viewer::Subject& subject, const ViewInput& input) {
+std::vector<std::string> load_curves(viewer::ViewedObject& subject, const ViewInput& input) {
     Geometry geometry = load_geometry({.path = input.path, .options = input.geometry});
     for (std::string& note : make_slices_of_yarns(geometry, subject.seed)) {
         geometry.notes.push_back(std::move(note));
@@ -105,26 +105,26 @@ LoadedView load_view(const ViewInput& input, const ViewOptions& options, Progres
     return out;
 }
 
-std::vector<viewer::ViewImage> draw_frames(const viewer::Subject& subject,
-                                           const ViewOptions& options,
-                                           std::int64_t frames,
-                                           Progress& progress) {
+std::vector<viewer::RgbImage> draw_frames(const viewer::ViewedObject& subject,
+                                          const ViewOptions& options,
+                                          std::int64_t frames,
+                                          Progress& progress) {
     StageClock clock(progress);
-    std::vector<viewer::ViewImage> images;
-    const TakeFrame take = [&](std::int64_t, const viewer::ViewImage& image, const auto&) {
+    std::vector<viewer::RgbImage> images;
+    const TakeFrame take = [&](std::int64_t, const viewer::RgbImage& image, const auto&) {
         images.push_back(image);
     };
     (void)draw(subject, options, frames, take, clock);
     return images;
 }
 
-FramesReport draw_frames_to_files(const viewer::Subject& subject,
+FramesReport draw_frames_to_files(const viewer::ViewedObject& subject,
                                   const ViewOptions& options,
                                   const FramesOptions& frames,
                                   Progress& progress) {
     StageClock clock(progress);
     make_folder(subject.folder);
-    const TakeFrame take = [&](std::int64_t frame, const viewer::ViewImage& image,
+    const TakeFrame take = [&](std::int64_t frame, const viewer::RgbImage& image,
                                const viewer::Session& session) {
         if (frame == 0 && frames.scene) write_scene(session, *frames.scene);
         write_output([&] {

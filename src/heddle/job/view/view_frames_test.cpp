@@ -21,7 +21,7 @@ TEST(ViewFrames, ThePicturesInFilesAreThoseInMemory) {
         load_view({.path = folder.file("a.bcc"), .geometry = {}, .folder = folder.file("out")},
                   options, silent);
     EXPECT_EQ(view.subject.name, "a");
-    const std::vector<viewer::ViewImage> images = draw_frames(view.subject, options, 2, silent);
+    const std::vector<viewer::RgbImage> images = draw_frames(view.subject, options, 2, silent);
     const FramesReport report = draw_frames_to_files(view.subject, options, {.frames = 2}, silent);
     ASSERT_EQ(images.size(), 2u);
     EXPECT_EQ(read_image(folder.file("out/frame_0001.png")).texels, images[1].rgb);

@@ -46,7 +46,7 @@ viewer::VoxelLook voxel_look(const ViewOptions& options) {
 }
 
 /// The axis that was asked for, or as preview has it: z of what lies flat.
-Vec3d up_of(const ViewOptions& options, const viewer::Subject& subject) {
+Vec3d up_of(const ViewOptions& options, const viewer::ViewedObject& subject) {
     int axis = options.up_axis.value_or(1);
     if (!options.up_axis) {
         const Vec3d size = viewer::bounds_of(subject).size();
@@ -58,7 +58,7 @@ Vec3d up_of(const ViewOptions& options, const viewer::Subject& subject) {
 }
 
 /// About the unit ball.
-viewer::Orbit orbit_of(const ViewOptions& options, const viewer::Subject& subject) {
+viewer::Orbit orbit_of(const ViewOptions& options, const viewer::ViewedObject& subject) {
     constexpr double kDegree = std::numbers::pi / 180.0;
     viewer::Orbit orbit{.from = options.from,
                         .up = up_of(options, subject),
@@ -102,7 +102,7 @@ void check_view(const ViewInput& input, const ViewOptions& options, bool scene) 
     }
 }
 
-viewer::Settings view_settings(const ViewOptions& options, const viewer::Subject& subject) {
+viewer::Settings view_settings(const ViewOptions& options, const viewer::ViewedObject& subject) {
     const bool voxels = !subject.geometry || options.show == viewer::Show::Voxels;
     check_color(options.color, voxels);
     viewer::Settings out;

@@ -8,7 +8,7 @@ namespace heddle::job {
 ChosenDevice choose_device(const VoxelizeJobOptions& options, const VoxelizeOptions& asked) {
     if (options.backend == Backend::Raster || options.device == DeviceChoice::Cpu) return {};
     const executor::Device device = executor::find_device();
-    const std::string cannot = why_not_on_device(asked);
+    const std::string cannot = device_limitation(asked);
     if (options.device == DeviceChoice::Cuda) {
         if (device.name.empty()) {
             throw Error(ErrorCode::Device, str("`device` cuda: ", device.why),

@@ -11,7 +11,7 @@ namespace heddle::job {
 /// Where voxels will be made.
 struct ChosenDevice {
     bool cuda = false;
-    std::string name;              ///< of the device
+    std::string name{};            ///< of the device
     std::int64_t memory_bytes = 0; ///< of the device that may be used
 };
 

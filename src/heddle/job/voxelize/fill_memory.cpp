@@ -7,8 +7,8 @@ namespace heddle::job {
 std::int64_t
 resolution_for_memory(const VoxelizeOptions& options,
                       const std::function<VoxelizePlan(const VoxelizeOptions&)>& plan_of) {
-    constexpr std::int64_t kLeast = 16;
-    constexpr std::int64_t kMost = std::int64_t{1} << 20;
+    constexpr std::int64_t kMin = 16;
+    constexpr std::int64_t kMax = std::int64_t{1} << 20;
     const std::int64_t limit =
         options.memory_bytes > 0 ? options.memory_bytes : available_bytes() / 2;
     const auto fits = [&](std::int64_t voxels) {
@@ -25,15 +25,15 @@ resolution_for_memory(const VoxelizeOptions& options,
             throw;
         }
     };
-    if (!fits(kLeast)) {
+    if (!fits(kMin)) {
         throw Error(ErrorCode::OutOfMemory,
-                    str("voxelize: even ", kLeast,
-                        " voxels along the longest axis do not fit into ", limit >> 20, " MiB"),
+                    str("voxelize: even ", kMin, " voxels along the longest axis do not fit into ",
+                        limit >> 20, " MiB"),
                     "give a larger `memory`");
     }
-    std::int64_t least = kLeast; // fits
-    std::int64_t most = 2 * kLeast;
-    while (most <= kMost && fits(most)) {
+    std::int64_t least = kMin; // fits
+    std::int64_t most = 2 * kMin;
+    while (most <= kMax && fits(most)) {
         least = most;
         most *= 2;
     }

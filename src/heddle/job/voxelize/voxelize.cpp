@@ -33,7 +33,7 @@ std::string folder_of(const std::string& output) {
 }
 
 /// Level 0 and those that `builder` made over it.
-VoxelLevels finish_levels(LevelBuilder* builder, std::unique_ptr<VoxelSource> level0) {
+VoxelLevels finish_levels(LevelBuilder* builder, std::unique_ptr<VoxelLevel> level0) {
     if (builder != nullptr) return builder->finish(std::move(level0));
     VoxelLevels levels;
     levels.push_back(std::move(level0));
@@ -111,7 +111,7 @@ std::unique_ptr<Voxelizer::Run> Voxelizer::prepare(GeometryInput input,
     return run;
 }
 
-std::unique_ptr<VoxelSource> Voxelizer::make_voxels(Run& run) {
+std::unique_ptr<VoxelLevel> Voxelizer::make_voxels(Run& run) {
     const VoxelizePlan& plan = run.report.plan;
     StageClock& clock = run.clock;
     if (options_.backend == Backend::Raster) {
@@ -124,7 +124,7 @@ std::unique_ptr<VoxelSource> Voxelizer::make_voxels(Run& run) {
     }
     DeviceReport took;
     DeviceOptions device{.memory_bytes = run.device.memory_bytes, .report = &took};
-    std::unique_ptr<VoxelSource> made =
+    std::unique_ptr<VoxelLevel> made =
         voxelize_on_cuda(run.geometry, run.options, plan, device, clock, run.builder.get());
     run.report.device->peak_bytes = took.peak_bytes;
     run.report.device->batches = took.batches;

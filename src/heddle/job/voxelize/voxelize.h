@@ -17,7 +17,7 @@ namespace heddle::job {
 
 /// What a CUDA device took.
 struct DeviceUse {
-    std::string name;
+    std::string name{};
     std::int64_t peak_bytes = 0; ///< of its memory; this and the rest: 0 in a plan
     std::int64_t batches = 0;
     double upload_seconds = 0.0;
@@ -25,22 +25,22 @@ struct DeviceUse {
 
 /// What a voxelization did, or would do: then all below `file_bytes` is empty but the notes.
 struct VoxelizeReport {
-    VoxelizePlan plan;
+    VoxelizePlan plan{};
     std::int64_t predicted_file_bytes = 0; ///< of a .vdb of all levels
-    std::vector<std::string> notes;        ///< what was assumed, one sentence each
-    std::optional<DeviceUse> device;       ///< none: not on a device
-    std::optional<raster::RasterCounts> raster;
-    LevelCounts counts;
-    std::optional<double> levels_thread_seconds; ///< of all threads; none: no levels were built
-    std::int64_t file_bytes = 0;                 ///< of the .vdb; 0: none was written
-    StageTimes stages;
+    std::vector<std::string> notes{};      ///< what was assumed, one sentence each
+    std::optional<DeviceUse> device{};     ///< none: not on a device
+    std::optional<raster::RasterCounts> raster{};
+    LevelCounts counts{};
+    std::optional<double> levels_thread_seconds{}; ///< of all threads; none: no levels were built
+    std::int64_t file_bytes = 0;                   ///< of the .vdb; 0: none was written
+    StageTimes stages{};
     double seconds = 0.0;
     std::int64_t peak_bytes = 0; ///< resident, of the process so far
 };
 
 struct VoxelizeResult {
-    VoxelLevels levels; ///< finest first
-    VoxelizeReport report;
+    VoxelLevels levels{}; ///< finest first
+    VoxelizeReport report{};
 };
 
 /// Voxelizes one input after another: what is set up for one, a driver's context and its programs,
@@ -67,7 +67,7 @@ private:
     [[nodiscard]] VoxelizePlan
     plan_of(const Run& run, const VoxelizeOptions& options, LevelBuilder* builder, Progress& clock);
     [[nodiscard]] std::unique_ptr<LevelBuilder> make_builder() const;
-    [[nodiscard]] std::unique_ptr<VoxelSource> make_voxels(Run& run);
+    [[nodiscard]] std::unique_ptr<VoxelLevel> make_voxels(Run& run);
     [[nodiscard]] VoxelLevels make_levels(Run& run);
 
     VoxelizeJobOptions options_;

@@ -11,7 +11,7 @@ namespace heddle::job {
 /// One file of a sequence.
 struct AnimationFrame {
     std::int64_t number = 0; ///< for messages
-    std::string input, output;
+    std::string input{}, output{};
 };
 
 /// voxelize_to_file() for each frame, in one run: what is set up for one serves the next. What was

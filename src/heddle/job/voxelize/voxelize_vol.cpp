@@ -38,16 +38,16 @@ VolLayout find_layout(const std::string& path, const VolJobOptions& options, Sta
 
 /// The blocks in memory where that holds them: levels and each grid of the file walk all of them,
 /// and the source decodes them anew every time.
-std::unique_ptr<VoxelSource> hold(std::unique_ptr<VoxelSource> source,
-                                  const std::optional<std::int64_t>& memory_bytes,
-                                  Progress& progress) {
-    const VoxelGridInfo& info = source->info();
+std::unique_ptr<VoxelLevel> hold(std::unique_ptr<VoxelLevel> source,
+                                 const std::optional<std::int64_t>& memory_bytes,
+                                 Progress& progress) {
+    const VoxelLevelInfo& info = source->info();
     const std::int64_t limit = memory_bytes.value_or(available_bytes() / 2);
     const std::int64_t leaves = info.voxel_count / 8; // at most, in what is worth holding
     if (2 * predict_block_bytes(leaves, info.voxel_count, info.lobe_count, info.fields) > limit) {
         return source;
     }
-    auto grid = std::make_unique<VoxelGrid>();
+    auto grid = std::make_unique<MemoryLevel>();
     grid->set_info(info);
     grid->blocks.resize(source->block_count());
     progress.begin("decode", "blocks", static_cast<std::int64_t>(grid->blocks.size()));

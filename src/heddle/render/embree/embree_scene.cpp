@@ -90,9 +90,9 @@ Vec3f across(Vec3f v, Vec3f unit) {
 Vec3f towards_viewer(Vec3f shading, Vec3f geometric, Vec3f viewer) {
     if (dot(shading, geometric) < 0.0f) shading = shading * -1.0f;
     const float seen = dot(shading, viewer);
-    constexpr float kLeast = 1e-3f;
-    if (seen >= kLeast) return shading;
-    return normalize(shading + viewer * (kLeast - seen), geometric);
+    constexpr float kMin = 1e-3f;
+    if (seen >= kMin) return shading;
+    return normalize(shading + viewer * (kMin - seen), geometric);
 }
 
 class TracedScene final : public SurfaceScene {

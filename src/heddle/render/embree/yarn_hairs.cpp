@@ -21,8 +21,8 @@ int cubic_count(const YarnPath& path, const FlyawayHair& hair) {
 
 RoundPoint hair_at(const YarnPath& path, std::size_t ply, const FlyawayHair& hair, double q) {
     const double s = std::clamp(hair.z0 + hair.ze * q, 0.0, path.total());
-    const YarnPlace place = path.at(path.knot_of_length(s));
-    const PlyPlace at = path.ply(place, ply);
+    const TracedYarnFrame place = path.at(path.knot_of_length(s));
+    const TracedPlyFrame at = path.ply(place, ply);
     const double angle = hair.p0 + hair.pe * q;
     const double r = hair.r0 + hair.re * q;
     const double offset = static_cast<double>(path.yarn().ply_offset);

@@ -30,7 +30,7 @@ YarnPath::YarnPath(const FiberSource& source, std::uint64_t first_span)
     loops_ = yarn_.flyaways && yarn_.loop_density > 0.0f;
 }
 
-YarnPlace YarnPath::at(double t) const {
+TracedYarnFrame YarnPath::at(double t) const {
     const auto count = static_cast<double>(spans_.size());
     if (closed() && t >= count) t -= count; // whole rounds are whole turns of all
     const double k = std::clamp(std::floor(t), 0.0, count - 1.0);
@@ -50,7 +50,7 @@ double YarnPath::knot_of_length(double s) const {
     return static_cast<double>(lo) + std::clamp(part, 0.0, 1.0);
 }
 
-PlyPlace YarnPath::ply(const YarnPlace& at, std::size_t ply) const {
+TracedPlyFrame YarnPath::ply(const TracedYarnFrame& at, std::size_t ply) const {
     const SinCos turned = sincos_turns(spans_.front().course.ply_turns(at.s));
     const auto d = [](float x) { return static_cast<double>(x); };
     const double c =

@@ -14,10 +14,10 @@ namespace heddle {
 
 /// One place of a yarn: what its fibers there are made of. All in scene units: `scale` too is scene
 /// units a model unit.
-using YarnPlace = YarnSection<double>;
+using TracedYarnFrame = YarnSection<double>;
 
 /// Where a ply's section stands at one place.
-struct PlyPlace {
+struct TracedPlyFrame {
     Vec3d center, u, v; ///< a fiber lies at center + x u + y v, x and y in model units
 };
 
@@ -38,11 +38,11 @@ public:
     [[nodiscard]] std::size_t ply_count() const { return table_.first_of_ply.size() - 1; }
 
     /// @param t  in knots since the curve's start; in [0, span_count()]; closed ones go round
-    [[nodiscard]] YarnPlace at(double t) const;
+    [[nodiscard]] TracedYarnFrame at(double t) const;
     /// @param s  yarn length, model units, in [0, total]
     /// @return   knots since the start, within the span by its share of the length
     [[nodiscard]] double knot_of_length(double s) const;
-    [[nodiscard]] PlyPlace ply(const YarnPlace& at, std::size_t ply) const;
+    [[nodiscard]] TracedPlyFrame ply(const TracedYarnFrame& at, std::size_t ply) const;
 
     /// Calls visit(fiber, position, radius) for all fibers at one place, in the table's order.
     /// @param t  as in `at`
@@ -68,14 +68,14 @@ private:
 
 template <typename Visit>
 void YarnPath::for_each_fiber(double t, const Visit& visit) const {
-    const YarnPlace place = at(t);
+    const TracedYarnFrame place = at(t);
     const double* turns = spans_.front().course.turns_per_length;
     const SinCos fiber = sincos_turns(turns[1] * place.s);
     const SinCos wave = sincos_turns(turns[2] * place.s);
     const double radius = static_cast<double>(table_.fiber_radius) * place.scale;
     const auto d = [](float x) { return static_cast<double>(x); };
     for (std::size_t p = 0; p < ply_count(); ++p) {
-        const PlyPlace frame = ply(place, p);
+        const TracedPlyFrame frame = ply(place, p);
         for (std::size_t i = table_.first_of_ply[p]; i < table_.first_of_ply[p + 1]; ++i) {
             const double phase =
                 d(table_.cos_migration[i]) * d(wave.cos) - d(table_.sin_migration[i]) * d(wave.sin);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <heddle/render/volume/transport.h>
-#include <heddle/render/volume/volume_level.h>
+#include <heddle/render/volume/traversal_level.h>
 
 #include <algorithm>
 #include <array>
@@ -44,7 +44,7 @@ count_set_cells(std::uint64_t footprints, Vec3f in, Vec3f way) {
 
 /// Coverage of the cells that a way sweeps. Where rounding set more cells than were covered they are
 /// thinned; where it set none the voxel is even.
-/// @param depth  of the voxel along the axis, VolumeVoxel::depth
+/// @param depth  of the voxel along the axis, TraversalVoxel::depth
 /// @param bits   of the axis's footprint
 /// @param set    of kWayPoints points
 [[nodiscard]] inline float swept_coverage(std::uint16_t depth, std::uint16_t bits, int set) {
@@ -76,16 +76,16 @@ count_set_cells(std::uint64_t footprints, Vec3f in, Vec3f way) {
 /// voxel along the axis c d is blocked. Depths that add up, 1 - (1 - c)^d, hold for fine dust; `many`
 /// is their share. In the bulk of a yarn, fibers behind fibers, they add up and are larger.
 /// @param voxel       its own depths
-/// @param footprints  VolumeLevel::footprints
-/// @param many        many_of(level)
+/// @param footprints  TraversalLevel::footprints
+/// @param many        fiber_crowding(level)
 /// @param bulk        Ray::bulk
 /// @param in, out     where the ray enters and leaves, in [0, 1]^3 of the voxel
-[[nodiscard]] inline Vec3f depths_on_way(const VolumeVoxel& voxel,
-                                         std::uint64_t footprints,
-                                         float many,
-                                         float bulk,
-                                         Vec3f in,
-                                         Vec3f out) {
+[[nodiscard]] inline Vec3f depths_along_path(const TraversalVoxel& voxel,
+                                             std::uint64_t footprints,
+                                             float many,
+                                             float bulk,
+                                             Vec3f in,
+                                             Vec3f out) {
     const Vec3f way = out - in;
     const std::array<int, 3> set = detail::count_set_cells(footprints, in, way);
     Vec3f depth{};
@@ -102,7 +102,7 @@ count_set_cells(std::uint64_t footprints, Vec3f in, Vec3f way) {
 
 /// How far a level's columns hold many fibers behind each other, in [0, 0.3]: grows with the voxel's
 /// edge in fiber radii. Chosen by transmittance against traced geometry (docs/transport.md).
-[[nodiscard]] inline float many_of(const VolumeLevel& level) {
+[[nodiscard]] inline float fiber_crowding(const TraversalLevel& level) {
     constexpr float kFrom = 4.5f; // log2 of an edge of 23 radii
     constexpr float kRise = 0.15f;
     constexpr float kMost = 0.3f;

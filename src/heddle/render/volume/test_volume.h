@@ -1,7 +1,7 @@
 #pragma once
 
 #include <heddle/base/random.h>
-#include <heddle/render/volume/volume.h>
+#include <heddle/render/volume/volume_instance.h>
 #include <heddle/voxel/test_grid.h>
 
 #include <cmath>
@@ -47,25 +47,25 @@ add_random(VoxelMap& voxels, StreamRandom& random, Vec3i lo, int extent, int cou
     }
 }
 
-inline std::shared_ptr<const VolumeLevel> level_of(const VoxelMap& voxels,
-                                                   Vec3d voxel_size = {1, 1, 1},
-                                                   int level = 0,
-                                                   MaterialKind kind = MaterialKind::Fiber) {
-    VoxelGrid grid;
+inline std::shared_ptr<const TraversalLevel> level_of(const VoxelMap& voxels,
+                                                      Vec3d voxel_size = {1, 1, 1},
+                                                      int level = 0,
+                                                      MaterialKind kind = MaterialKind::Fiber) {
+    MemoryLevel grid;
     grid.info().lattice = {voxel_size, 8 << level};
     grid.info().level = level;
     grid.info().materials.resize(1);
     grid.info().materials[0].kind = kind;
     grid.blocks = make_blocks(voxels);
     count_voxels(grid);
-    return std::make_shared<const VolumeLevel>(grid);
+    return std::make_shared<const TraversalLevel>(grid);
 }
 
 /// A volume of one level.
-inline Volume volume_of(const VoxelMap& voxels,
-                        const Affine& to_world = {},
-                        Vec3d voxel_size = {1, 1, 1},
-                        MaterialKind kind = MaterialKind::Fiber) {
+inline VolumeInstance volume_of(const VoxelMap& voxels,
+                                const Affine& to_world = {},
+                                Vec3d voxel_size = {1, 1, 1},
+                                MaterialKind kind = MaterialKind::Fiber) {
     return {{level_of(voxels, voxel_size, 0, kind)}, to_world, {0}};
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <heddle/render/volume/volume_level.h>
+#include <heddle/render/volume/traversal_level.h>
 
 #include <cmath>
 #include <cstdint>
@@ -16,7 +16,7 @@ enum class Transport : std::uint8_t {
     Threshold, ///< a ray keeps what it drew from voxel to voxel as their faces correlate; Product
                ///< where the file has no correlation
     Footprint, ///< where a ray crosses the voxels' faces decides; Product without footprints
-    Flakes     ///< a FlakeMedium in place of the Volume: one SGGX a voxel, interpolated [Heitz15]
+    Flakes ///< a FlakeMedium in place of the VolumeInstance: one SGGX a voxel, interpolated [Heitz15]
 };
 
 /// Names on the command line, in the order of Transport.
@@ -27,7 +27,7 @@ enum class Transport : std::uint8_t {
 [[nodiscard]] Transport transport_from(const std::string& name);
 
 /// The transport that a level's data allow.
-[[nodiscard]] inline Transport resolve(Transport asked, const VolumeLevel& level) {
+[[nodiscard]] inline Transport resolve(Transport asked, const TraversalLevel& level) {
     if (asked == Transport::Threshold) {
         return level.has_correlation() ? asked : Transport::Product;
     }
@@ -45,7 +45,7 @@ enum class Transport : std::uint8_t {
 }
 
 /// A voxel's depths along the axes.
-[[nodiscard]] inline Vec3f depths_of(const VolumeVoxel& voxel) {
+[[nodiscard]] inline Vec3f depths_of(const TraversalVoxel& voxel) {
     return Vec3f{static_cast<float>(voxel.depth[0]), static_cast<float>(voxel.depth[1]),
                  static_cast<float>(voxel.depth[2])} *
            kDepthUnit;

@@ -99,7 +99,7 @@ private:
 /// Product: each voxel stops a ray on its own.                        [Fabre26, LopezMoreno17]
 class ProductLaw {
 public:
-    ProductLaw(const VolumeLevel& level, const VoxelRay& ray, RayPassage& passage)
+    ProductLaw(const TraversalLevel& level, const VoxelRay& ray, RayPassage& passage)
         : level_(level), passage_(passage), rate_(detail::rate_of(ray)) {}
 
     /// @return  false: nothing behind matters
@@ -110,7 +110,7 @@ public:
     }
 
 private:
-    const VolumeLevel& level_;
+    const TraversalLevel& level_;
     RayPassage& passage_;
     Vec3f rate_;
 };
@@ -118,7 +118,7 @@ private:
 /// Threshold: runs go on as far as the coverages of neighbours correlate; depths as with Product.
 class CorrelatedVoxels {
 public:
-    CorrelatedVoxels(const VolumeLevel& level, const VoxelRay& ray, float /*bulk*/)
+    CorrelatedVoxels(const TraversalLevel& level, const VoxelRay& ray, float /*bulk*/)
         : level_(level), rate_(detail::rate_of(ray)) {}
 
     [[nodiscard]] Vec3f depths(const VoxelStep& step) const {
@@ -132,7 +132,7 @@ public:
     }
 
 private:
-    const VolumeLevel& level_;
+    const TraversalLevel& level_;
     Vec3f rate_;
 };
 
@@ -140,12 +140,12 @@ private:
 class FootprintVoxels {
 public:
     /// @param bulk  Ray::bulk
-    FootprintVoxels(const VolumeLevel& level, const VoxelRay& ray, float bulk)
-        : level_(level), ray_(ray), many_(many_of(level)), bulk_(bulk) {}
+    FootprintVoxels(const TraversalLevel& level, const VoxelRay& ray, float bulk)
+        : level_(level), ray_(ray), many_(fiber_crowding(level)), bulk_(bulk) {}
 
     [[nodiscard]] Vec3f depths(const VoxelStep& step) const {
-        return depths_on_way(level_.voxel(step.voxel), level_.footprints(step.voxel), many_, bulk_,
-                             inside(step, step.t_in), inside(step, step.t_out));
+        return depths_along_path(level_.voxel(step.voxel), level_.footprints(step.voxel), many_,
+                                 bulk_, inside(step, step.t_in), inside(step, step.t_out));
     }
     [[nodiscard]] float keep_chance(int /*axis*/, std::int64_t /*lower*/) const { return kKeep; }
 
@@ -161,7 +161,7 @@ private:
                                    static_cast<double>(step.at.z)});
     }
 
-    const VolumeLevel& level_;
+    const TraversalLevel& level_;
     const VoxelRay& ray_;
     float many_;
     float bulk_;
@@ -174,7 +174,7 @@ private:
 template <typename Voxels>
 class RunLaw {
 public:
-    RunLaw(const VolumeLevel& level, const VoxelRay& ray, float bulk, RayPassage& passage)
+    RunLaw(const TraversalLevel& level, const VoxelRay& ray, float bulk, RayPassage& passage)
         : voxels_(level, ray, bulk), passage_(passage) {}
 
     /// @return  false: nothing behind matters
@@ -205,7 +205,7 @@ private:
 /// @param bulk  Ray::bulk
 template <typename Walk>
 void with_law(Transport asked,
-              const VolumeLevel& level,
+              const TraversalLevel& level,
               const VoxelRay& ray,
               float bulk,
               RayPassage& passage,

@@ -13,11 +13,11 @@ using namespace heddle::testing;
 
 /// Random voxels with footprints of 4 x 4 cells, as many bits as their coverage rounds to, and random
 /// correlation.
-std::shared_ptr<const VolumeLevel> random_level(MaterialKind kind, int level) {
+std::shared_ptr<const TraversalLevel> random_level(MaterialKind kind, int level) {
     VoxelMap voxels;
     StreamRandom random{3};
     add_random(voxels, random, {-3, -3, -3}, 6, 150, 0.9);
-    VoxelGrid grid;
+    MemoryLevel grid;
     grid.info().lattice = lattice_of_level({{1, 1, 1}, 8}, level);
     grid.info().level = level;
     grid.info().materials.resize(1);
@@ -40,16 +40,16 @@ std::shared_ptr<const VolumeLevel> random_level(MaterialKind kind, int level) {
             block.correlation.push_back({byte(), byte(), byte()});
         }
     }
-    return std::make_shared<const VolumeLevel>(grid);
+    return std::make_shared<const TraversalLevel>(grid);
 }
 
-Volume volume_with_extras(MaterialKind kind = MaterialKind::Fiber) {
+VolumeInstance volume_with_extras(MaterialKind kind = MaterialKind::Fiber) {
     return {{random_level(kind, 0)}, {}, {0}};
 }
 
 const LevelChoice kFinest{0, 0.0f, 0.5f};
 
-void expect_equal_laws(const Volume& volume, const LevelChoice& choice, const Ray& ray) {
+void expect_equal_laws(const VolumeInstance& volume, const LevelChoice& choice, const Ray& ray) {
     for (const Transport t : {Transport::Product, Transport::Threshold, Transport::Footprint}) {
         StreamRandom random{11};
         constexpr int kDraws = 20000;
@@ -66,7 +66,7 @@ void expect_equal_laws(const Volume& volume, const LevelChoice& choice, const Ra
 }
 
 TEST(Transport, FlightsPassAsOftenAsTransmittanceSays) {
-    const Volume volume = volume_with_extras();
+    const VolumeInstance volume = volume_with_extras();
     StreamRandom random{11};
     for (int r = 0; r < 6; ++r) {
         const Vec3d from = to_double(random_direction(random)) * (r < 2 ? 1.0 : 8.0);
@@ -78,7 +78,7 @@ TEST(Transport, FlightsPassAsOftenAsTransmittanceSays) {
 }
 
 TEST(Transport, FlightsPassAsOftenWhereTheLevelChanges) {
-    const Volume volume{
+    const VolumeInstance volume{
         {random_level(MaterialKind::Fiber, 0), random_level(MaterialKind::Fiber, 1)}, {}, {0}};
     StreamRandom random{12};
     for (int r = 0; r < 6; ++r) {
@@ -91,7 +91,7 @@ TEST(Transport, FlightsPassAsOftenWhereTheLevelChanges) {
 }
 
 TEST(Transport, NothingStopsARayWhereItIsClear) {
-    const Volume volume = volume_with_extras();
+    const VolumeInstance volume = volume_with_extras();
     StreamRandom random{5};
     Ray ray = ray_along({0, 0, 0}, {1, 2, 3});
     const auto passes = [&] {
@@ -125,7 +125,7 @@ TEST(Transport, NamesAreThoseOfTheEnum) {
     EXPECT_THROW((void)transport_from("footprnt"), Error);
 }
 
-VolumeVoxel voxel_of(double coverage) {
+TraversalVoxel voxel_of(double coverage) {
     const auto depth = static_cast<std::uint16_t>(
         std::lround(-std::log1p(-coverage) / static_cast<double>(kDepthUnit)));
     return {{depth, depth, depth}, 0};
@@ -140,7 +140,7 @@ TEST(DepthsOnWay, ARayAlongAnAxisIsStoppedInSetCellsAlone) {
     const std::uint64_t along_y = std::uint64_t{1} << (16 + 4 * 3 + 0); // z = 0, x = 3
     const std::uint64_t along_z = std::uint64_t{1} << (32 + 4 * 1 + 2); // x = 2, y = 1
     const std::uint64_t bits = along_x | along_y | along_z;
-    const VolumeVoxel voxel = voxel_of(1.0 / 16.0);
+    const TraversalVoxel voxel = voxel_of(1.0 / 16.0);
     const auto cell = [](int i) { return (static_cast<float>(i) + 0.4f) / 4.0f; };
     for (int a = 0; a < 3; ++a) {
         for (int u = 0; u < 4; ++u) {
@@ -152,7 +152,7 @@ TEST(DepthsOnWay, ARayAlongAnAxisIsStoppedInSetCellsAlone) {
                 const bool set = a == 0   ? u == 1 && v == 2
                                  : a == 1 ? u == 0 && v == 3
                                           : u == 2 && v == 1;
-                const Vec3f depth = depths_on_way(voxel, bits, 0.0f, 0.0f, in, out);
+                const Vec3f depth = depths_along_path(voxel, bits, 0.0f, 0.0f, in, out);
                 EXPECT_NEAR(blocked(depth[a]), set ? 0.99 : 0.0, 0.005);
                 EXPECT_EQ(depth[(a + 1) % 3], 0.0f);
             }
@@ -163,7 +163,7 @@ TEST(DepthsOnWay, ARayAlongAnAxisIsStoppedInSetCellsAlone) {
 /// Of a way along z through a part of an even voxel.
 double blocked_of(double coverage, float part, float many, float bulk) {
     const Vec3f in{0.3f, 0.3f, 0.0f}, out{0.3f, 0.3f, part};
-    return blocked(depths_on_way(voxel_of(coverage), 0, many, bulk, in, out).z);
+    return blocked(depths_along_path(voxel_of(coverage), 0, many, bulk, in, out).z);
 }
 
 TEST(DepthsOnWay, AColumnIsBlockedAtOnePlaceInIt) {
@@ -190,8 +190,9 @@ TEST(DepthsOnWay, InTheBulkTheyAddUpAndAreLarger) {
 }
 
 TEST(DepthsOnWay, CellsThatRoundingAddedCountLess) {
-    const VolumeVoxel voxel = voxel_of(0.10); // of two bits, .125
-    const Vec3f depth = depths_on_way(voxel, 3u << 0, 0.0f, 0.0f, {0, 0.1f, 0.1f}, {1, 0.1f, 0.1f});
+    const TraversalVoxel voxel = voxel_of(0.10); // of two bits, .125
+    const Vec3f depth =
+        depths_along_path(voxel, 3u << 0, 0.0f, 0.0f, {0, 0.1f, 0.1f}, {1, 0.1f, 0.1f});
     EXPECT_NEAR(blocked(depth.x), 0.8, 1e-3);
 }
 

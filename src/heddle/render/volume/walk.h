@@ -1,7 +1,7 @@
 #pragma once
 
 #include <heddle/base/vec.h>
-#include <heddle/render/volume/volume_level.h>
+#include <heddle/render/volume/traversal_level.h>
 
 #include <cmath>
 #include <cstdint>
@@ -16,7 +16,7 @@ struct VoxelRay {
 
 /// A voxel that a ray crosses.
 struct VoxelStep {
-    const VolumeLeaf& leaf;
+    const TraversalLeaf& leaf;
     std::int64_t voxel; ///< in the level's arrays
     Vec3i at;           ///< its index
     float t_in, t_out;  ///< t_in <= t_out
@@ -40,8 +40,8 @@ struct LocalRay {
         out.base[a] = static_cast<std::int32_t>(whole);
         out.from[a] = static_cast<float>(start - whole);
         const auto d = static_cast<float>(ray.direction[a]);
-        constexpr float kLeast = 1e-30f; // reaches no face in any t
-        out.direction[a] = std::fabs(d) > kLeast ? d : kLeast;
+        constexpr float kMin = 1e-30f; // reaches no face in any t
+        out.direction[a] = std::fabs(d) > kMin ? d : kMin;
         out.per_voxel[a] = 1.0f / out.direction[a];
     }
     return out;
@@ -85,13 +85,16 @@ struct Exit {
 /// order, until it gives false. Emptiness is crossed 64 or 8 voxels at a time.
 /// @param t0  the ray is within 2^30 voxels of the origin there
 template <typename Visit>
-void walk_voxels(
-    const VolumeLevel& level, const VoxelRay& voxel_ray, float t0, float t1, const Visit& visit) {
+void traverse_voxels(const TraversalLevel& level,
+                     const VoxelRay& voxel_ray,
+                     float t0,
+                     float t1,
+                     const Visit& visit) {
     const detail::LocalRay ray = detail::localize(voxel_ray, t0);
     const float end = t1 - t0;
     Vec3i at{};
     float t = 0.0f;
-    VolumeLevel::Place place;
+    TraversalLevel::LeafLookup place;
     Vec3i leaf_index{};
     while (t < end) {
         const Vec3i index = ray.base + at;

@@ -41,7 +41,7 @@ brute_force(const VoxelMap& voxels, const VoxelRay& ray, double t0, double t1) {
 }
 
 /// Walks, and expects what brute force finds: all but slivers at corners, in order, once.
-void expect_walk(const VolumeLevel& level,
+void expect_walk(const TraversalLevel& level,
                  const VoxelMap& voxels,
                  const VoxelRay& ray,
                  float t0,
@@ -51,7 +51,7 @@ void expect_walk(const VolumeLevel& level,
         brute_force(voxels, ray, static_cast<double>(t0), static_cast<double>(t1));
     std::map<Index, Span> seen;
     float last = t0;
-    walk_voxels(level, ray, t0, t1, [&](const VoxelStep& step) {
+    traverse_voxels(level, ray, t0, t1, [&](const VoxelStep& step) {
         const Index at{step.at.x, step.at.y, step.at.z};
         EXPECT_GE(step.t_in, last);
         EXPECT_GE(step.t_out, step.t_in);
@@ -163,7 +163,7 @@ TEST(Walk, LengthsTileTheRay) { // through a block without gaps
     for (int i = 0; i < 200; ++i) {
         const VoxelRay ray{index_space(random, -3.0, 3.0), to_double(random_direction(random))};
         float at = 0.0f;
-        walk_voxels(*level, ray, 0.0f, 6.5f, [&](const VoxelStep& step) {
+        traverse_voxels(*level, ray, 0.0f, 6.5f, [&](const VoxelStep& step) {
             EXPECT_EQ(step.t_in, at);
             at = step.t_out;
             return true;
@@ -176,8 +176,8 @@ TEST(Walk, EndsWhereTheVisitorSaysSo) {
     const VoxelMap voxels = cloud();
     const auto level = level_of(voxels);
     int count = 0;
-    walk_voxels(*level, {{-20.0, 0.3, 0.4}, {1.0, 0.01, 0.02}}, 0.0f, 100.0f,
-                [&](const VoxelStep&) { return ++count < 3; });
+    traverse_voxels(*level, {{-20.0, 0.3, 0.4}, {1.0, 0.01, 0.02}}, 0.0f, 100.0f,
+                    [&](const VoxelStep&) { return ++count < 3; });
     EXPECT_EQ(count, 3);
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <heddle/base/progress.h>
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 
 #include <atomic>
 #include <functional>

@@ -26,7 +26,7 @@ std::string quoted(const std::string& text) {
 } // namespace
 
 std::string scene_text(const std::string& volume,
-                       const CameraView& camera,
+                       const CameraParameters& camera,
                        Vec3d light,
                        std::int32_t width,
                        std::int32_t height) {

@@ -15,7 +15,7 @@ namespace heddle::viewer {
 /// @param light          towards the light, nonzero length
 /// @param width, height  px
 [[nodiscard]] std::string scene_text(const std::string& volume,
-                                     const CameraView& camera,
+                                     const CameraParameters& camera,
                                      Vec3d light,
                                      std::int32_t width,
                                      std::int32_t height);

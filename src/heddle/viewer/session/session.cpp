@@ -5,7 +5,7 @@
 #include <heddle/io/image/image.h>
 #include <heddle/io/vdb/write_vdb.h>
 #include <heddle/viewer/session/save_scene.h>
-#include <heddle/viewer/session/voxelize_seen.h>
+#include <heddle/viewer/session/voxelize_visible.h>
 #include <heddle/viewer/volume/voxel_tables.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ bool same_picture(const Settings& a, const Settings& b) {
 
 } // namespace
 
-Bounds bounds_of(const Subject& subject) {
+Bounds bounds_of(const ViewedObject& subject) {
     Bounds out;
     if (subject.geometry) {
         for (const CurveSet& set : subject.geometry->curves) {
@@ -33,7 +33,7 @@ Bounds bounds_of(const Subject& subject) {
         }
     }
     if (!subject.levels || !out.empty()) return out;
-    const VoxelSource& finest = *subject.levels->front();
+    const VoxelLevel& finest = *subject.levels->front();
     const Vec3d size = finest.info().lattice.voxel_size;
     VoxelBlock scratch;
     for (std::size_t b = 0; b < finest.block_count(); ++b) {
@@ -48,7 +48,7 @@ Bounds bounds_of(const Subject& subject) {
 }
 
 Session::Session(const opengl::Context& context,
-                 Subject subject,
+                 ViewedObject subject,
                  const Settings& settings,
                  std::int32_t width,
                  std::int32_t height)
@@ -56,9 +56,9 @@ Session::Session(const opengl::Context& context,
     if (subject_.geometry) {
         kinds_ = names_of_kinds(*subject_.geometry);
         settings_.yarns.resize(kinds_.size());
-        slices_ = std::make_unique<SliceView>(
+        slices_ = std::make_unique<SliceRenderer>(
             context, edited(*subject_.geometry, settings_.yarns),
-            SliceViewOptions{.memory_bytes = subject_.memory_bytes, .seed = subject_.seed});
+            SliceRendererOptions{.memory_bytes = subject_.memory_bytes, .seed = subject_.seed});
     }
     if (subject_.levels) show_voxels();
     if (!slices_) settings_.show = Show::Voxels;
@@ -92,7 +92,7 @@ void Session::resize(std::int32_t width, std::int32_t height) {
     if (picture_ && picture_->fine().width() == width && picture_->fine().height() == height) {
         return;
     }
-    picture_ = std::make_unique<Refiner>(width, height);
+    picture_ = std::make_unique<ProgressiveRenderer>(width, height);
 }
 
 void Session::set(const Settings& settings) {
@@ -112,8 +112,8 @@ void Session::set(const Settings& settings) {
     settings_ = next;
 }
 
-void Session::draw(const ViewTarget& target, bool coarse, SliceTimes* times) {
-    const CameraView camera = settings_.orbit.camera();
+void Session::draw(const RenderTarget& target, bool coarse, SliceTimes* times) {
+    const CameraParameters camera = settings_.orbit.camera();
     VoxelLook volume = settings_.volume;
     if (volume.light) volume.light = settings_.slices.light;
     if (settings_.show == Show::Voxels) {
@@ -138,15 +138,15 @@ bool Session::work(double seconds) {
     const bool fine = attempt([&] {
         if (!picture_->done()) fit_slices();
         drawn = picture_->work(
-            seconds, [&](const ViewTarget& target, bool coarse) { draw(target, coarse); });
+            seconds, [&](const RenderTarget& target, bool coarse) { draw(target, coarse); });
     });
     write_picture();
     return drawn || !fine;
 }
 
-ViewImage Session::draw_now(SliceTimes* times) {
+RgbImage Session::draw_now(SliceTimes* times) {
     fit_slices();
-    const ViewTarget& target = picture_->fine();
+    const RenderTarget& target = picture_->fine();
     target.clear();
     draw(target, false, times);
     picture_->restart();
@@ -188,7 +188,7 @@ void Session::voxelize() {
         options.bounds = seen;
     }
     start([request = VoxelRequest{std::move(geometry), std::move(options)}](Progress& progress) {
-        return voxelize_seen(request, progress);
+        return voxelize_visible(request, progress);
     });
 }
 
@@ -217,8 +217,8 @@ void Session::take_result() {
 
 void Session::show_voxels() {
     Progress silent;
-    voxels_ = std::make_unique<VoxelView>(context_, sources_of(*subject_.levels),
-                                          VoxelViewOptions{}, silent);
+    voxels_ = std::make_unique<VoxelRenderer>(context_, sources_of(*subject_.levels),
+                                              VoxelRendererOptions{}, silent);
     const int first = voxels_->tables().first_level();
     if (first > 0) {
         message_ = str("levels below ", first, " exceed the driver's buffers and are not shown");
@@ -252,7 +252,7 @@ void Session::write_picture() {
     if (!picture_wanted_ || !picture_->done()) return;
     picture_wanted_ = false;
     attempt([&] {
-        const ViewImage image = picture_->fine().image();
+        const RgbImage image = picture_->fine().image();
         write_png(place_of(".png"), image.width, image.height, 3, image.rgb);
         message_ = "saved " + place_of(".png");
     });

@@ -2,11 +2,11 @@
 
 #include <heddle/opengl/context.h>
 #include <heddle/viewer/session/job.h>
-#include <heddle/viewer/session/refiner.h>
+#include <heddle/viewer/session/progressive_renderer.h>
 #include <heddle/viewer/session/settings.h>
-#include <heddle/viewer/slice/slice_view.h>
-#include <heddle/viewer/volume/voxel_view.h>
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/viewer/slice/slice_renderer.h>
+#include <heddle/viewer/volume/voxel_renderer.h>
+#include <heddle/voxel/voxel_level.h>
 
 #include <cstdint>
 #include <functional>
@@ -17,26 +17,26 @@
 namespace heddle::viewer {
 
 /// The objects that are shown: yarns and hair, a volume, or both.
-struct Subject {
+struct ViewedObject {
     std::string name;                          ///< name of the file, for titles and saved files
     std::optional<Geometry> geometry;          ///< yarns of the models slice and solid, or hair
     std::shared_ptr<const VoxelLevels> levels; ///< may be null
     std::uint64_t seed = 0;
-    std::int64_t memory_bytes = 0; ///< SliceViewOptions::memory_bytes
+    std::int64_t memory_bytes = 0; ///< SliceRendererOptions::memory_bytes
     std::string folder = ".";      ///< where files are saved
 };
 
 /// A box around the control points or, without any, around the leaves of 8^3 voxels.
-[[nodiscard]] Bounds bounds_of(const Subject& subject);
+[[nodiscard]] Bounds bounds_of(const ViewedObject& subject);
 
 /// The state and work of a view, without a window: settings in; pictures, voxels and files out. A
 /// failure leaves one line as message(), and everything else unchanged.
 class Session {
 public:
     /// @param context  must outlive the session
-    /// @throws Error   as SliceView and VoxelView
+    /// @throws Error   as SliceRenderer and VoxelRenderer
     Session(const opengl::Context& context,
-            Subject subject,
+            ViewedObject subject,
             const Settings& settings,
             std::int32_t width,
             std::int32_t height);
@@ -47,7 +47,7 @@ public:
     /// Sets other settings; the picture starts again if they change it.
     void set(const Settings& settings);
     [[nodiscard]] const Settings& settings() const { return settings_; }
-    /// @throws Error  as ViewTarget
+    /// @throws Error  as RenderTarget
     void resize(std::int32_t width, std::int32_t height);
 
     /// Takes the result of a job if there is one, and draws for about `seconds`.
@@ -57,8 +57,8 @@ public:
     /// Draws the complete picture at once.
     /// @param times   of slices; may be null
     /// @throws Error  any failure
-    [[nodiscard]] ViewImage draw_now(SliceTimes* times = nullptr);
-    [[nodiscard]] const Refiner& picture() const { return *picture_; }
+    [[nodiscard]] RgbImage draw_now(SliceTimes* times = nullptr);
+    [[nodiscard]] const ProgressiveRenderer& picture() const { return *picture_; }
     [[nodiscard]] bool busy() const { return job_ != nullptr || !picture_->done(); }
 
     /// Starts to voxelize the visible part, or all.
@@ -83,7 +83,7 @@ public:
     /// @param x, y  pixels from the upper left corner of the picture
     void pick_block(double x, double y);
     [[nodiscard]] const std::string& message() const { return message_; }
-    [[nodiscard]] const Subject& subject() const { return subject_; }
+    [[nodiscard]] const ViewedObject& subject() const { return subject_; }
     [[nodiscard]] std::int64_t slice_count() const;
     [[nodiscard]] int level_count() const;   ///< number of levels of the voxels; 0: there are none
     [[nodiscard]] std::string blend() const; ///< the blending of slices, in words
@@ -91,7 +91,7 @@ public:
     [[nodiscard]] const std::vector<std::string>& kinds() const { return kinds_; }
 
 private:
-    void draw(const ViewTarget& target, bool coarse, SliceTimes* times = nullptr);
+    void draw(const RenderTarget& target, bool coarse, SliceTimes* times = nullptr);
     void fit_slices();
     [[nodiscard]] Ball ball() const;
     void frame_first();
@@ -106,12 +106,12 @@ private:
     [[nodiscard]] std::string place_of(const char* suffix) const;
 
     const opengl::Context& context_;
-    Subject subject_;
+    ViewedObject subject_;
     Settings settings_;
     std::vector<std::string> kinds_;
-    std::unique_ptr<SliceView> slices_;
-    std::unique_ptr<VoxelView> voxels_;
-    std::unique_ptr<Refiner> picture_;
+    std::unique_ptr<SliceRenderer> slices_;
+    std::unique_ptr<VoxelRenderer> voxels_;
+    std::unique_ptr<ProgressiveRenderer> picture_;
     std::unique_ptr<Job> job_;
     bool picture_wanted_ = false;
     std::string message_;

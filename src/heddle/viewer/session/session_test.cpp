@@ -55,7 +55,7 @@ protected:
 
     opengl::Context context_;
     std::filesystem::path folder_;
-    Subject subject_;
+    ViewedObject subject_;
     Settings settings_;
 };
 
@@ -84,12 +84,12 @@ TEST_F(SessionTest, VoxelizesWhatIsSeenByBothBackendsAndSavesIt) {
         session.voxelize();
         ASSERT_TRUE(settle(session)) << session.message();
         ASSERT_TRUE(session.has_voxels()) << session.message();
-        const VoxelGridInfo& info = session.subject().levels->front()->info();
+        const VoxelLevelInfo& info = session.subject().levels->front()->info();
         EXPECT_NEAR(info.lattice.voxel_size.x, 2.0 * 3.0 / kSize, 1e-12);
         session.save_scene();
         ASSERT_TRUE(settle(session));
         EXPECT_EQ(session.message().rfind("saved ", 0), 0u) << session.message();
-        const std::vector<VoxelGridInfo> saved = read_infos((folder_ / "fiber_view.vdb").string());
+        const std::vector<VoxelLevelInfo> saved = read_infos((folder_ / "fiber_view.vdb").string());
         EXPECT_EQ(saved.front().voxel_count, info.voxel_count);
         EXPECT_GT(info.voxel_count, 0);
         EXPECT_TRUE(std::filesystem::exists(folder_ / "fiber_view.toml"));
@@ -104,7 +104,7 @@ TEST_F(SessionTest, OpensAVolumeAloneOrBesideItsCurves) {
         session.save_voxels();
         ASSERT_TRUE(settle(session)) << session.message();
     }
-    Subject volume;
+    ViewedObject volume;
     volume.name = "volume";
     volume.levels =
         std::make_shared<VoxelLevels>(read_levels((folder_ / "fiber_view.vdb").string()));

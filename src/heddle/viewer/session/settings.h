@@ -3,8 +3,8 @@
 #include <heddle/raster/voxelize_slices.h>
 #include <heddle/viewer/orbit.h>
 #include <heddle/viewer/session/yarn_edit.h>
-#include <heddle/viewer/slice/slice_view.h>
-#include <heddle/viewer/volume/voxel_view.h>
+#include <heddle/viewer/slice/slice_renderer.h>
+#include <heddle/viewer/volume/voxel_renderer.h>
 
 #include <string>
 #include <vector>

@@ -63,8 +63,8 @@ void multiply_fibers(Geometry& geometry, double factor) {
     }
 }
 
-Bounds seen_bounds(const Geometry& geometry, const CameraView& camera, double aspect) {
-    const PictureAxes axes(camera.eye - camera.target, camera.up);
+Bounds seen_bounds(const Geometry& geometry, const CameraParameters& camera, double aspect) {
+    const CameraAxes axes(camera.eye - camera.target, camera.up);
     const double tall =
         camera.orthographic ? 0.5 * camera.view_height : std::tan(0.5 * camera.view_angle);
     Bounds out;

@@ -29,6 +29,7 @@ void multiply_fibers(Geometry& geometry, double factor);
 /// A box around the control points that a camera sees, enlarged by the yarns' radius; empty if it
 /// sees none.
 /// @param aspect  width over height of the picture
-[[nodiscard]] Bounds seen_bounds(const Geometry& geometry, const CameraView& camera, double aspect);
+[[nodiscard]] Bounds
+seen_bounds(const Geometry& geometry, const CameraParameters& camera, double aspect);
 
 } // namespace heddle::viewer

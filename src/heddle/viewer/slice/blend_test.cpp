@@ -1,4 +1,4 @@
-#include <heddle/viewer/slice/slice_view.h>
+#include <heddle/viewer/slice/slice_renderer.h>
 #include <heddle/viewer/slice/test_blend.h>
 
 #include <heddle/geom/generate.h>
@@ -26,7 +26,7 @@ Geometry knit() {
 TEST(Blend, TenThousandSortedSlicesAreWithinOneOf255OfTheReferenceOnAllButATenthOfAPercent) {
     const opengl::Context context;
     const Geometry geometry = knit();
-    SliceView view(context, geometry, {.pixel = kPixel});
+    SliceRenderer view(context, geometry, {.pixel = kPixel});
     ASSERT_GT(view.slice_count(), 10000);
     const slice::SectionLayers layers = slice::build_sections(geometry, 0);
     const LatticeUnits units({.voxel_size = {kPixel, kPixel, kPixel}, .subvoxels = 1});
@@ -39,7 +39,7 @@ TEST(Blend, TenThousandSortedSlicesAreWithinOneOf255OfTheReferenceOnAllButATenth
         Orbit orbit{.view_angle = angle};
         orbit.frame(view.ball(), 1.0);
         orbit.zoom(1.5);
-        const ViewTarget target(kSize, kSize);
+        const RenderTarget target(kSize, kSize);
         target.clear();
         view.draw(target, orbit.camera(), look);
         const std::vector<float> drawn = target.read();

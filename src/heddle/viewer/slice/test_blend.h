@@ -4,8 +4,8 @@
 #include <heddle/slice/section_layers.h>
 #include <heddle/slice/slices.h>
 #include <heddle/viewer/orbit.h>
-#include <heddle/viewer/slice/slice_view.h>
-#include <heddle/viewer/slice/view_sections.h>
+#include <heddle/viewer/slice/section_mipmaps.h>
+#include <heddle/viewer/slice/slice_renderer.h>
 #include <heddle/yarn/slice_image.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-// What SliceView draws without shadows, in double precision on the CPU; docs/raster.md describes
+// What SliceRenderer draws without shadows, in double precision on the CPU; docs/raster.md describes
 // it.
 
 namespace heddle::viewer::test {
@@ -84,8 +84,8 @@ public:
     }
 
     /// RGBA, linear, premultiplied, rows from the bottom.
-    std::vector<double> draw(const CameraView& camera, int width, int height, Vec3d light) {
-        const PictureAxes axes(camera.eye - camera.target, camera.up);
+    std::vector<double> draw(const CameraParameters& camera, int width, int height, Vec3d light) {
+        const CameraAxes axes(camera.eye - camera.target, camera.up);
         parallel_ = camera.orthographic;
         pixel_ =
             (parallel_ ? camera.view_height / unit_ : 2.0 * std::tan(0.5 * camera.view_angle)) /
@@ -99,7 +99,7 @@ public:
     }
 
 private:
-    std::vector<Slab> sorted(const PictureAxes& axes, Vec3d eye) const {
+    std::vector<Slab> sorted(const CameraAxes& axes, Vec3d eye) const {
         std::vector<Slab> out;
         for (std::size_t i = 0; i + 1 < placed_.size(); ++i) {
             if (placed_[i].flags != 0) continue;

@@ -49,7 +49,7 @@ void main() {
 /// GLSL, vertex: a quad over a slab, perpendicular to the ray to its middle. Needs kStretchGlsl.
 inline constexpr std::string_view kSeenQuadGlsl = R"(
 void main() {
-    Stretch s = give_stretch();
+    Slab s = current_slab();
     vec3 middle = 0.5 * (s.a.center + s.b.center);
     float away = length(middle);
     vec3 toward = parallel == 1 || away == 0.0 ? vec3(0.0, 0.0, 1.0) : middle / away;

@@ -75,13 +75,13 @@ void WeightedBlend::begin() const {
     glBlendFunci(1, GL_ZERO, GL_ONE_MINUS_SRC_COLOR);
 }
 
-void WeightedBlend::resolve(const ViewTarget& target) const {
+void WeightedBlend::resolve(const RenderTarget& target) const {
     glTextureBarrier();
     target.begin();
     glBindTextureUnit(1, sums_);
     glBindTextureUnit(2, through_);
     resolve_.use();
-    ViewTarget::draw_all();
+    RenderTarget::draw_all();
 }
 
 } // namespace heddle::viewer

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <heddle/opengl/shader.h>
-#include <heddle/viewer/view_target.h>
+#include <heddle/viewer/render_target.h>
 
 #include <cstdint>
 
@@ -20,7 +20,7 @@ public:
     /// Makes it the target of draws with kWeighGlsl, and clears it.
     void begin() const;
     /// Blends the sums over the contents of the target, which is the target of later draws.
-    void resolve(const ViewTarget& target) const;
+    void resolve(const RenderTarget& target) const;
 
 private:
     std::int32_t width_, height_;

@@ -1,6 +1,6 @@
 #include <heddle/viewer/volume/measure_voxels.h>
 
-#include <heddle/preview/scene.h>
+#include <heddle/preview/preview_volume.h>
 #include <heddle/voxel/index_box.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace heddle::viewer {
 namespace {
 
-using Table = preview::Scene::Table;
+using Table = preview::PreviewVolume::Table;
 
 void sort_unique(std::vector<Vec3i>& at) {
     std::sort(at.begin(), at.end(), [](const Vec3i& a, const Vec3i& b) {
@@ -65,7 +65,7 @@ VoxelTableBytes& VoxelTableBytes::operator+=(const VoxelTableBytes& other) {
     return *this;
 }
 
-VoxelMeasure measure_voxels(const VoxelSource& source, Progress& progress) {
+VoxelMeasure measure_voxels(const VoxelLevel& source, Progress& progress) {
     VoxelMeasure out;
     VoxelBlock scratch;
     for (std::size_t i = 0; i < source.block_count(); ++i) {

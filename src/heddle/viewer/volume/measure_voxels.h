@@ -2,7 +2,7 @@
 
 #include <heddle/base/progress.h>
 #include <heddle/geom/bounds.h>
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace heddle::viewer {
 
-inline constexpr int kMostVoxelLevels = 24;   ///< as many as shaders have room for
+inline constexpr int kMaxVoxelLevels = 24;    ///< as many as shaders have room for
 inline constexpr int kBlockShift = 5;         ///< a block is a cell of 32^3 of the finest voxels
 inline constexpr std::size_t kLeafWords = 21; ///< active: 16, before: 4, first voxel: 1
 
@@ -37,6 +37,6 @@ struct VoxelMeasure {
 
 /// Reads the leaves of all blocks; advances `progress` by one per block.
 /// @throws Error  Cancelled
-[[nodiscard]] VoxelMeasure measure_voxels(const VoxelSource& source, Progress& progress);
+[[nodiscard]] VoxelMeasure measure_voxels(const VoxelLevel& source, Progress& progress);
 
 } // namespace heddle::viewer

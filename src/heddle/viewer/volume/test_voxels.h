@@ -1,8 +1,8 @@
 #pragma once
 
 #include <heddle/geom/generate.h>
+#include <heddle/viewer/volume/voxel_renderer.h>
 #include <heddle/viewer/volume/voxel_tables.h>
-#include <heddle/viewer/volume/voxel_view.h>
 #include <heddle/voxel/test_grid.h>
 #include <heddle/voxelize/test_voxelize.h>
 
@@ -11,12 +11,12 @@
 #include <memory>
 #include <vector>
 
-// Small volumes and pictures of them, for the tests of VoxelView.
+// Small volumes and pictures of them, for the tests of VoxelRenderer.
 
 namespace heddle::viewer::test {
 
 inline constexpr std::int32_t kSize = 128;
-using Sources = std::vector<const VoxelSource*>;
+using Sources = std::vector<const VoxelLevel*>;
 using Rgb = std::array<int, 3>;
 
 inline VoxelLook at_eye(VoxelColor color = VoxelColor::Shaded) {
@@ -24,14 +24,14 @@ inline VoxelLook at_eye(VoxelColor color = VoxelColor::Shaded) {
 }
 
 /// Voxels of one material, coverage c on every axis.
-inline VoxelGrid
+inline MemoryLevel
 make_voxels(const std::vector<Vec3i>& at, double c, Vec3f direction = {1.0f, 0.0f, 0.0f}) {
     heddle::testing::VoxelMap voxels;
     const auto u = static_cast<std::uint16_t>(std::lround(c * 65535.0));
     for (const Vec3i i : at) {
         voxels[{i.x, i.y, i.z}] = {{u, u, u, u}, {{heddle::testing::needle(direction), 255, 0}}};
     }
-    VoxelGrid grid;
+    MemoryLevel grid;
     grid.info().materials.resize(1);
     grid.info().materials[0].kind = MaterialKind::Fiber;
     grid.blocks = heddle::testing::make_blocks(voxels);
@@ -62,39 +62,40 @@ inline VoxelLevels knit(int levels, Vec3d finest = {0.05, 0.05, 0.05}) {
     return out;
 }
 
-inline std::unique_ptr<VoxelSource> blades() {
+inline std::unique_ptr<VoxelLevel> blades() {
     const Geometry grass = generate({.kind = GenerateKind::Grass, .nx = 30, .ny = 4});
     VoxelizeOptions options;
     options.voxels = 90;
     return heddle::test::voxelize_now(grass, options);
 }
 
-inline ViewImage picture(const VoxelView& view,
-                         const CameraView& camera,
-                         const VoxelLook& look,
-                         std::int32_t size = kSize) {
-    const ViewTarget target(size, size);
+inline RgbImage picture(const VoxelRenderer& view,
+                        const CameraParameters& camera,
+                        const VoxelLook& look,
+                        std::int32_t size = kSize) {
+    const RenderTarget target(size, size);
     target.clear();
     view.draw(target, camera, look);
     return target.image();
 }
 
 inline std::vector<float>
-floats(const VoxelView& view, const CameraView& camera, const VoxelLook& look) {
-    const ViewTarget target(kSize, kSize);
+floats(const VoxelRenderer& view, const CameraParameters& camera, const VoxelLook& look) {
+    const RenderTarget target(kSize, kSize);
     target.clear();
     view.draw(target, camera, look);
     return target.read();
 }
 
-inline CameraView around(const VoxelView& view, Vec3d from, double angle, double zoom = 1.0) {
+inline CameraParameters
+around(const VoxelRenderer& view, Vec3d from, double angle, double zoom = 1.0) {
     Orbit orbit{.from = from, .view_angle = angle};
     orbit.frame(view.ball(), 1.0);
     orbit.zoom(zoom);
     return orbit.camera();
 }
 
-inline Rgb pixel(const ViewImage& image, std::int32_t x, std::int32_t y) {
+inline Rgb pixel(const RgbImage& image, std::int32_t x, std::int32_t y) {
     const std::uint8_t* p = &image.rgb[3 * static_cast<std::size_t>(y * image.width + x)];
     return {p[0], p[1], p[2]};
 }

@@ -3,7 +3,7 @@
 #include <heddle/base/error.h>
 #include <heddle/opengl/buffer.h>
 #include <heddle/opengl/shader.h>
-#include <heddle/preview/scene.h>
+#include <heddle/preview/preview_volume.h>
 #include <heddle/viewer/volume/voxel_table_glsl.h>
 
 #include <gtest/gtest.h>
@@ -17,14 +17,14 @@ TEST(VoxelLevels, FarAwayACoarserLevelIsTakenAndLooksAlike) {
     const opengl::Context context;
     Progress progress;
     const VoxelLevels levels = knit(5);
-    const VoxelView view(context, sources_of(levels), {}, progress);
+    const VoxelRenderer view(context, sources_of(levels), {}, progress);
     VoxelLook fine = at_eye();
     VoxelLook by_pixel = at_eye();
     by_pixel.level = -1;
     for (const double angle : {0.0, 0.6}) {
         for (const int level : {0, 1, 2, 3}) {
             // a pixel is slightly narrower than the level's voxels
-            CameraView camera = around(view, {0.2, 0.1, 1.0}, angle);
+            CameraParameters camera = around(view, {0.2, 0.1, 1.0}, angle);
             const double pixel = 0.93 * 0.05 * std::ldexp(1.0, level);
             camera.view_height = pixel * kSize;
             const double distance = 0.5 * pixel * kSize / std::tan(0.3);
@@ -47,7 +47,7 @@ TEST(VoxelLevels, FarAwayACoarserLevelIsTakenAndLooksAlike) {
     offset.level_offset = 2.0;
     VoxelLook two = at_eye();
     two.level = 2;
-    CameraView camera = around(view, {0.2, 0.1, 1.0}, 0.0);
+    CameraParameters camera = around(view, {0.2, 0.1, 1.0}, 0.0);
     camera.view_height = 0.9 * 0.05 * kSize;
     EXPECT_EQ(floats(view, camera, offset), floats(view, camera, two));
 }
@@ -57,14 +57,14 @@ TEST(VoxelLevels, LevelsChangeAlongARayWithItsWidth) {
     Progress progress;
     // twice and four times the largest depth of a byte: both block the same over the same length
     const double depth = 2.0 * double{preview::kMaxDepth} / 255.0;
-    const VoxelGrid fine = make_voxels(box({0, 0, 0}, {8, 8, 64}), -std::expm1(-depth));
-    VoxelGrid coarse = make_voxels(box({0, 0, 0}, {4, 4, 32}), -std::expm1(-2.0 * depth));
+    const MemoryLevel fine = make_voxels(box({0, 0, 0}, {8, 8, 64}), -std::expm1(-depth));
+    MemoryLevel coarse = make_voxels(box({0, 0, 0}, {4, 4, 32}), -std::expm1(-2.0 * depth));
     coarse.info().lattice = lattice_of_level(fine.info().lattice, 1);
-    const VoxelView view(context, Sources{&fine, &coarse}, {}, progress);
+    const VoxelRenderer view(context, Sources{&fine, &coarse}, {}, progress);
     VoxelLook look = at_eye(VoxelColor::Level);
     look.level = -1;
     // the eye looks along z; a pixel is 1 wide at z = 32
-    CameraView camera{.eye = {4.1, 4.1, -32.0}, .target = {4.1, 4.1, 0.0}};
+    CameraParameters camera{.eye = {4.1, 4.1, -32.0}, .target = {4.1, 4.1, 0.0}};
     camera.view_angle = 2.0 * std::atan(0.5 * kSize / 64.0);
     const std::vector<float> both = floats(view, camera, look);
     const std::size_t middle = 4 * (kSize / 2 * kSize + kSize / 2);
@@ -88,22 +88,23 @@ TEST(VoxelLevels, LevelsThatAStorageBlockDoesNotHoldAreLeftOut) {
     const opengl::Context context;
     Progress progress;
     const VoxelLevels levels = knit(3);
-    const VoxelView whole(context, sources_of(levels), {}, progress);
+    const VoxelRenderer whole(context, sources_of(levels), {}, progress);
     ASSERT_EQ(whole.tables().first_level(), 0);
     const auto bytes = whole.tables().bytes();
     EXPECT_EQ(bytes[0].voxels, 4 * levels[0]->info().voxel_count);
     VoxelTableBytes rest = bytes[1];
     rest += bytes[2];
-    const VoxelView part(context, sources_of(levels), {.storage_bytes = rest.largest()}, progress);
+    const VoxelRenderer part(context, sources_of(levels), {.storage_bytes = rest.largest()},
+                             progress);
     EXPECT_EQ(part.tables().first_level(), 1);
     EXPECT_EQ(part.tables().level_count(), 3);
     EXPECT_EQ(part.tables().blocks().size(), whole.tables().blocks().size());
     VoxelLook one = at_eye();
     one.level = 1;
-    const CameraView camera = around(whole, {0.2, 0.1, 1.0}, 0.4);
+    const CameraParameters camera = around(whole, {0.2, 0.1, 1.0}, 0.4);
     EXPECT_EQ(picture(part, camera, at_eye()).rgb, picture(whole, camera, one).rgb);
     try {
-        const VoxelView none(context, sources_of(levels), {.storage_bytes = 1000}, progress);
+        const VoxelRenderer none(context, sources_of(levels), {.storage_bytes = 1000}, progress);
         ADD_FAILURE() << "not even the coarsest level fits";
     } catch (const Error& e) {
         EXPECT_EQ(e.code(), ErrorCode::OutOfMemory);
@@ -113,9 +114,9 @@ TEST(VoxelLevels, LevelsThatAStorageBlockDoesNotHoldAreLeftOut) {
 TEST(VoxelLevels, VoxelAtGivesOtherShadersWhatTheGridHolds) {
     const opengl::Context context;
     Progress progress;
-    VoxelGrid grid = make_voxels({{-5, 3, 200}}, 0.5, {0.6f, 0.0f, 0.8f});
+    MemoryLevel grid = make_voxels({{-5, 3, 200}}, 0.5, {0.6f, 0.0f, 0.8f});
     grid.info().lattice.voxel_size = {0.5, 1.0, 0.25};
-    const VoxelView view(context, Sources{&grid}, {}, progress);
+    const VoxelRenderer view(context, Sources{&grid}, {}, progress);
     constexpr std::string_view kAsk = R"(
 layout(std430, binding = 0) readonly buffer Places { vec4 places[]; };
 layout(std430, binding = 1) writeonly buffer Found { vec4 found[]; };

@@ -13,13 +13,13 @@ TEST(VoxelLook, ShadowsDarkenWhatLiesBehindSeenFromTheLight) {
     Progress progress;
     std::vector<Vec3i> at = box({0, 0, 0}, {64, 64, 2}); // a floor and a bar above it
     for (const Vec3i i : box({0, 28, 10}, {64, 8, 4})) at.push_back(i);
-    const VoxelGrid grid = make_voxels(at, 1.0);
-    const VoxelView view(context, Sources{&grid}, {}, progress);
+    const MemoryLevel grid = make_voxels(at, 1.0);
+    const VoxelRenderer view(context, Sources{&grid}, {}, progress);
     VoxelLook look{.light = Vec3d{0.0, 1.0, 1.0}, .shadows = false};
-    const CameraView camera = around(view, {0.0, 0.0, 1.0}, 0.0);
-    const ViewImage without = picture(view, camera, look);
+    const CameraParameters camera = around(view, {0.0, 0.0, 1.0}, 0.0);
+    const RgbImage without = picture(view, camera, look);
     look.shadows = true;
-    const ViewImage with = picture(view, camera, look);
+    const RgbImage with = picture(view, camera, look);
     // the light is above: the shadow of the bar is 10 voxels below it
     const double scale = kSize / (2.0 * view.ball().radius);
     const auto row = [&](double y) { return static_cast<std::int32_t>(kSize / 2 + y * scale); };
@@ -31,9 +31,9 @@ TEST(VoxelLook, ShadowsDarkenWhatLiesBehindSeenFromTheLight) {
 TEST(VoxelLook, FibersAreBrightWhereLightComesFromTheirSide) {
     const opengl::Context context;
     Progress progress;
-    const VoxelGrid grid = make_voxels(box({0, 0, 0}, {16, 16, 16}), 1.0, {1.0f, 0.0f, 0.0f});
-    const VoxelView view(context, Sources{&grid}, {}, progress);
-    const CameraView camera = around(view, {0.0, 0.0, 1.0}, 0.0);
+    const MemoryLevel grid = make_voxels(box({0, 0, 0}, {16, 16, 16}), 1.0, {1.0f, 0.0f, 0.0f});
+    const VoxelRenderer view(context, Sources{&grid}, {}, progress);
+    const CameraParameters camera = around(view, {0.0, 0.0, 1.0}, 0.0);
     const auto green = [&](Vec3d light) {
         const VoxelLook look{.light = light, .shadows = false};
         return pixel(picture(view, camera, look), kSize / 2, kSize / 2)[1];
@@ -44,10 +44,10 @@ TEST(VoxelLook, FibersAreBrightWhereLightComesFromTheirSide) {
 TEST(VoxelLook, ASurfaceSeenFromItsDarkSideIsDarkWhereThereAreShadows) {
     const opengl::Context context;
     Progress progress;
-    VoxelGrid sheet = make_voxels(box({0, 0, 0}, {16, 16, 1}), 1.0, {0.0f, 0.0f, 1.0f});
+    MemoryLevel sheet = make_voxels(box({0, 0, 0}, {16, 16, 1}), 1.0, {0.0f, 0.0f, 1.0f});
     sheet.info().materials[0].kind = MaterialKind::Surface;
-    const VoxelView view(context, Sources{&sheet}, {}, progress);
-    const CameraView camera = around(view, {0.0, 0.0, 1.0}, 0.0);
+    const VoxelRenderer view(context, Sources{&sheet}, {}, progress);
+    const CameraParameters camera = around(view, {0.0, 0.0, 1.0}, 0.0);
     const auto green = [&](double z, bool shadows) {
         const VoxelLook look{.light = Vec3d{0.0, 0.3, z}, .shadows = shadows};
         return pixel(picture(view, camera, look), kSize / 2, kSize / 2)[1];
@@ -61,9 +61,9 @@ TEST(VoxelLook, DensityGoesFromBlueToRedAndItsScaleMakesThin) {
     const opengl::Context context;
     Progress progress;
     for (const double c : {0.05, 0.95}) {
-        const VoxelGrid grid = make_voxels(box({0, 0, 0}, {16, 16, 16}), c);
-        const VoxelView view(context, Sources{&grid}, {}, progress);
-        const CameraView camera = around(view, {0.0, 0.0, 1.0}, 0.0);
+        const MemoryLevel grid = make_voxels(box({0, 0, 0}, {16, 16, 16}), c);
+        const VoxelRenderer view(context, Sources{&grid}, {}, progress);
+        const CameraParameters camera = around(view, {0.0, 0.0, 1.0}, 0.0);
         VoxelLook look = at_eye(VoxelColor::Density);
         const Rgb p = pixel(picture(view, camera, look), kSize / 2, kSize / 2);
         EXPECT_EQ(p[0] > p[2], c > 0.5);
@@ -80,15 +80,16 @@ TEST(VoxelLook, DensityGoesFromBlueToRedAndItsScaleMakesThin) {
 TEST(VoxelLook, LinesLieOnTheEdgesOfOccupiedBlocks) {
     const opengl::Context context;
     Progress progress;
-    const VoxelGrid grid = make_voxels({{1, 1, 1}, {-1, 1, 1}, {40, 40, 20}}, 1.0);
-    const VoxelView view(context, Sources{&grid}, {}, progress);
+    const MemoryLevel grid = make_voxels({{1, 1, 1}, {-1, 1, 1}, {40, 40, 20}}, 1.0);
+    const VoxelRenderer view(context, Sources{&grid}, {}, progress);
     ASSERT_EQ(view.tables().blocks().size(), 3u);
     VoxelLook look = at_eye();
     look.blocks = true;
     // a pixel is a voxel: edges are at voxels -32, 0, 32, 64
-    CameraView camera{.orthographic = true, .eye = {16.5, 16.5, 90.0}, .target = {16.5, 16.5, 0.0}};
+    CameraParameters camera{
+        .orthographic = true, .eye = {16.5, 16.5, 90.0}, .target = {16.5, 16.5, 0.0}};
     camera.view_height = kSize;
-    const ViewImage image = picture(view, camera, look);
+    const RgbImage image = picture(view, camera, look);
     const auto is_line = [&](int x, int y) { // voxels, y up
         const Rgb p = pixel(image, kSize / 2 - 17 + x, kSize / 2 + 16 - y);
         return p[0] > p[1] + 60;
@@ -111,9 +112,9 @@ TEST(VoxelLook, AHiddenLineIsDimmer) {
     const opengl::Context context;
     Progress progress;
     // in perspective the edges at z = 0, behind the voxels, are apart from those at z = 32
-    const VoxelGrid wall = make_voxels(box({-32, -32, 20}, {96, 96, 4}), 1.0);
-    const VoxelView view(context, Sources{&wall}, {}, progress);
-    CameraView camera{.eye = {16.0, 16.0, 120.0}, .target = {16.0, 16.0, 0.0}};
+    const MemoryLevel wall = make_voxels(box({-32, -32, 20}, {96, 96, 4}), 1.0);
+    const VoxelRenderer view(context, Sources{&wall}, {}, progress);
+    CameraParameters camera{.eye = {16.0, 16.0, 120.0}, .target = {16.0, 16.0, 0.0}};
     camera.view_angle = 2.0 * std::atan(0.5 * kSize / 240.0); // a pixel is half a voxel at z = 0
     VoxelLook look = at_eye();
     const std::vector<float> plain = floats(view, camera, look);
@@ -139,10 +140,11 @@ TEST(VoxelLook, AHiddenLineIsDimmer) {
 TEST(VoxelLook, BlockAtFindsTheFirstBlockUnderAPixel) {
     const opengl::Context context;
     Progress progress;
-    VoxelGrid grid = make_voxels({{1, 1, 1}, {-1, 1, 1}, {1, 1, 70}}, 1.0);
+    MemoryLevel grid = make_voxels({{1, 1, 1}, {-1, 1, 1}, {1, 1, 70}}, 1.0);
     grid.info().lattice.voxel_size = {1.0, 0.5, 2.0};
-    const VoxelView view(context, Sources{&grid}, {}, progress);
-    CameraView camera{.orthographic = true, .eye = {0.0, 8.0, 900.0}, .target = {0.0, 8.0, 0.0}};
+    const VoxelRenderer view(context, Sources{&grid}, {}, progress);
+    CameraParameters camera{
+        .orthographic = true, .eye = {0.0, 8.0, 900.0}, .target = {0.0, 8.0, 0.0}};
     camera.view_height = 100.0;
     const auto at = [&](double x, double y) { // scene units from the middle
         return view.block_at(camera, 100, 100, 50.0 + x, 50.0 - y);
@@ -164,11 +166,12 @@ TEST(VoxelLook, BlockAtFindsTheFirstBlockUnderAPixel) {
 TEST(VoxelLook, TheWhiteBlockIsSolidWithDarkCellEdges) {
     const opengl::Context context;
     Progress progress;
-    const VoxelGrid grid = make_voxels(box({24, 0, 0}, {16, 16, 1}), 0.3);
-    const VoxelView view(context, Sources{&grid}, {}, progress);
+    const MemoryLevel grid = make_voxels(box({24, 0, 0}, {16, 16, 1}), 0.3);
+    const VoxelRenderer view(context, Sources{&grid}, {}, progress);
     VoxelLook look = at_eye();
     look.white_block = Vec3i{1, 0, 0};
-    CameraView camera{.orthographic = true, .eye = {32.0, 8.0, 9.0}, .target = {32.0, 8.0, 0.0}};
+    CameraParameters camera{
+        .orthographic = true, .eye = {32.0, 8.0, 9.0}, .target = {32.0, 8.0, 0.0}};
     camera.view_height = 16.0; // 8 pixels a voxel
     const std::vector<float> seen = floats(view, camera, look);
     const auto at = [&](int voxel, int pixel) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <heddle/preview/scene.h>
+#include <heddle/preview/preview_volume.h>
 #include <heddle/viewer/volume/glsl_constant.h>
 #include <heddle/viewer/volume/measure_voxels.h>
 
@@ -18,12 +18,12 @@ namespace heddle::viewer {
 /// over the three axes, in [0, 127/128]. Levels that are not there are taken for the nearest.
 inline const std::string kVoxelTableGlsl =
     str("\n",
-        glsl_constant("kVoxelLevels", kMostVoxelLevels),
-        glsl_constant("kVoxelCellShift", preview::Scene::Table::kTileShift),
+        glsl_constant("kVoxelLevels", kMaxVoxelLevels),
+        glsl_constant("kVoxelCellShift", preview::PreviewVolume::Table::kTileShift),
         glsl_constant("kVoxelLeafWords", static_cast<int>(kLeafWords)),
         glsl_constant("kVoxelMaxDepth", preview::kMaxDepth),
         R"(
-struct VoxelLevel {
+struct VoxelLevelTables {
     vec4 per;     // voxels per scene unit; w: longest edge, scene units
     vec4 shift;   // voxel_middle from the table's corner, voxels; w: shortest edge, scene units
     ivec4 corner; // first voxel index of the table; w: doublings of the finest edges
@@ -34,7 +34,7 @@ struct VoxelLevel {
 layout(std140, binding = 8) uniform VoxelLevels {
     vec4 voxel_middle; // scene units
     ivec4 voxel_range; // finest and coarsest level
-    VoxelLevel voxel_levels[kVoxelLevels];
+    VoxelLevelTables voxel_levels[kVoxelLevels];
 };
 layout(std430, binding = 8) readonly buffer VoxelCells { int voxel_cells[]; }; // -1: empty
 layout(std430, binding = 9) readonly buffer VoxelLeafTable { uint voxel_leaf_table[]; }; // 0: none

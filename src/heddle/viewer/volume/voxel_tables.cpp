@@ -1,7 +1,7 @@
 #include <heddle/viewer/volume/voxel_tables.h>
 
 #include <heddle/base/error.h>
-#include <heddle/preview/scene.h>
+#include <heddle/preview/preview_volume.h>
 #include <heddle/voxel/index_box.h>
 
 #include <epoxy/gl.h>
@@ -16,7 +16,7 @@
 namespace heddle::viewer {
 namespace {
 
-using Table = preview::Scene::Table;
+using Table = preview::PreviewVolume::Table;
 
 constexpr std::uint32_t kFirstStorage = 8;
 constexpr std::uint32_t kLevelsUniform = 8;
@@ -31,11 +31,11 @@ int doublings(Vec3d finest, Vec3d edges) {
     return out;
 }
 
-void check_levels(std::span<const VoxelSource* const> levels) {
-    if (levels.size() > static_cast<std::size_t>(kMostVoxelLevels)) {
+void check_levels(std::span<const VoxelLevel* const> levels) {
+    if (levels.size() > static_cast<std::size_t>(kMaxVoxelLevels)) {
         throw Error(
             ErrorCode::InvalidArgument,
-            str("view: ", levels.size(), " levels of voxels (allowed: ", kMostVoxelLevels, ")"),
+            str("view: ", levels.size(), " levels of voxels (allowed: ", kMaxVoxelLevels, ")"),
             "give fewer of them");
     }
     for (std::size_t i = 0, last = 0; i < levels.size(); ++i) {
@@ -114,7 +114,7 @@ struct CellBox {
 struct Writer {
     std::array<Words, 6> to; ///< cells, leaf table, leaves, words of voxels
 
-    void write(const preview::Scene& scene, const CellBox& cells) {
+    void write(const preview::PreviewVolume& scene, const CellBox& cells) {
         const auto first_cell = static_cast<std::uint32_t>(to[1].count() / Table::kTileLeaves);
         const auto first_leaf = static_cast<std::uint32_t>(to[2].count() / kLeafWords);
         for (const std::uint32_t tile : cells.tiles)
@@ -123,19 +123,20 @@ struct Writer {
             to[1].push(leaf == Table::kNone ? 0 : leaf + 1 + first_leaf);
         std::vector<std::uint32_t> first; // voxel of each block
         std::uint32_t count = to[3].count();
-        for (const std::vector<preview::Voxel>& block : scene.voxels_by_block()) {
+        for (const std::vector<preview::PreviewVoxel>& block : scene.voxels_by_block()) {
             first.push_back(count);
             count += static_cast<std::uint32_t>(block.size());
-            for (const preview::Voxel& v : block) push(v);
+            for (const preview::PreviewVoxel& v : block) push(v);
         }
-        for (const preview::Leaf& leaf : scene.leaves()) push(leaf, first[leaf.block] + leaf.first);
+        for (const preview::PreviewLeaf& leaf : scene.leaves())
+            push(leaf, first[leaf.block] + leaf.first);
     }
-    void push(const preview::Voxel& voxel) {
+    void push(const preview::PreviewVoxel& voxel) {
         std::array<std::uint32_t, 3> words{};
         std::memcpy(words.data(), &voxel, sizeof(voxel));
         for (std::size_t i = 0; i < 3; ++i) to[3 + i].push(words[i]);
     }
-    void push(const preview::Leaf& leaf, std::uint32_t first) {
+    void push(const preview::PreviewLeaf& leaf, std::uint32_t first) {
         for (const std::uint64_t word : leaf.mask.active) {
             to[2].push(static_cast<std::uint32_t>(word));
             to[2].push(static_cast<std::uint32_t>(word >> 32));
@@ -150,14 +151,14 @@ struct Writer {
 
 } // namespace
 
-std::vector<const VoxelSource*> sources_of(const VoxelLevels& levels) {
-    std::vector<const VoxelSource*> out;
+std::vector<const VoxelLevel*> sources_of(const VoxelLevels& levels) {
+    std::vector<const VoxelLevel*> out;
     for (const auto& level : levels) out.push_back(level.get());
     return out;
 }
 
 /// As in kVoxelTableGlsl.
-struct VoxelTables::Level {
+struct VoxelTables::LevelTable {
     std::array<float, 4> per{};           ///< voxels per scene unit; longest edge
     std::array<float, 4> shift{};         ///< the middle from the corner, voxels; shortest edge
     std::array<std::int32_t, 4> corner{}; ///< first voxel index of the table; doublings
@@ -167,7 +168,7 @@ struct VoxelTables::Level {
 };
 
 VoxelTables::VoxelTables(const opengl::Context& context,
-                         std::span<const VoxelSource* const> levels,
+                         std::span<const VoxelLevel* const> levels,
                          std::int64_t storage_bytes,
                          Progress& progress) {
     check_levels(levels);
@@ -178,14 +179,14 @@ VoxelTables::VoxelTables(const opengl::Context& context,
     fill(levels, progress);
 }
 
-void VoxelTables::plan(std::span<const VoxelSource* const> levels,
+void VoxelTables::plan(std::span<const VoxelLevel* const> levels,
                        std::int64_t most,
                        Progress& progress) {
     std::size_t total = 0;
-    for (const VoxelSource* level : levels) total += level->block_count();
+    for (const VoxelLevel* level : levels) total += level->block_count();
     progress.begin("measure", "blocks", static_cast<std::int64_t>(total));
     std::vector<Bounds> bounds;
-    for (const VoxelSource* level : levels) {
+    for (const VoxelLevel* level : levels) {
         VoxelMeasure found = measure_voxels(*level, progress);
         if (bytes_.empty()) blocks_ = std::move(found.blocks);
         bytes_.push_back(found.bytes);
@@ -208,7 +209,7 @@ void VoxelTables::plan(std::span<const VoxelSource* const> levels,
                 "use larger voxels, or build coarser levels too");
 }
 
-void VoxelTables::fill(std::span<const VoxelSource* const> levels, Progress& progress) {
+void VoxelTables::fill(std::span<const VoxelLevel* const> levels, Progress& progress) {
     VoxelTableBytes sum;
     for (auto i = static_cast<std::size_t>(first_); i < bytes_.size(); ++i) sum += bytes_[i];
     const auto add = [&](const char* name, std::int64_t bytes) {
@@ -220,9 +221,9 @@ void VoxelTables::fill(std::span<const VoxelSource* const> levels, Progress& pro
     for (int i = 0; i < 3; ++i) add("voxels", sum.voxels);
     const auto words = [&](std::size_t i) { return Words(buffers_[i]); };
     Writer writer{{words(0), words(1), words(2), words(3), words(4), words(5)}};
-    std::vector<Level> about(levels.size());
+    std::vector<LevelTable> about(levels.size());
     for (auto i = static_cast<std::size_t>(first_); i < levels.size(); ++i) {
-        const preview::Scene scene(*levels[i], false, progress);
+        const preview::PreviewVolume scene(*levels[i], false, progress);
         if (scene.empty()) continue;
         const CellBox cells(scene.table());
         const Vec3i corner = cells.lo * Table::kTileVoxels;
@@ -245,11 +246,11 @@ void VoxelTables::fill(std::span<const VoxelSource* const> levels, Progress& pro
     write_levels(about);
 }
 
-void VoxelTables::write_levels(std::vector<Level>& levels) {
+void VoxelTables::write_levels(std::vector<LevelTable>& levels) {
     // rounded as in the shader: then only the distance of a point from it is rounded
     const Bounds& box = finest_bounds_;
     if (!box.empty()) middle_ = to_double(to_float((box.lo + box.hi) * 0.5));
-    for (Level& level : levels) {
+    for (LevelTable& level : levels) {
         const Vec3d h = voxel_size_ * std::ldexp(1.0, level.corner[3]);
         for (int a = 0; a < 3; ++a) {
             const auto at = static_cast<std::size_t>(a);
@@ -257,15 +258,15 @@ void VoxelTables::write_levels(std::vector<Level>& levels) {
             level.shift[at] = static_cast<float>(middle_[a] / h[a] - level.corner[at]);
         }
     }
-    levels.resize(kMostVoxelLevels);
+    levels.resize(kMaxVoxelLevels);
     const Vec3f middle = to_float(middle_);
     struct {
         std::array<float, 4> middle;
         std::array<std::int32_t, 4> range;
     } const head{{middle.x, middle.y, middle.z, 0.0f},
                  {first_, std::max(level_count() - 1, 0), 0, 0}};
-    const opengl::Buffer& to =
-        buffers_.emplace_back("levels of voxels", sizeof(head) + kMostVoxelLevels * sizeof(Level));
+    const opengl::Buffer& to = buffers_.emplace_back(
+        "levels of voxels", sizeof(head) + kMaxVoxelLevels * sizeof(LevelTable));
     to.write(std::as_bytes(std::span(&head, 1)));
     to.write(std::as_bytes(std::span(levels)), sizeof(head));
 }

@@ -5,7 +5,7 @@
 #include <heddle/opengl/buffer.h>
 #include <heddle/opengl/context.h>
 #include <heddle/viewer/volume/measure_voxels.h>
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 
 #include <cstdint>
 #include <span>
@@ -14,9 +14,9 @@
 namespace heddle::viewer {
 
 /// The levels by pointer, for what takes them from anywhere.
-[[nodiscard]] std::vector<const VoxelSource*> sources_of(const VoxelLevels& levels);
+[[nodiscard]] std::vector<const VoxelLevel*> sources_of(const VoxelLevels& levels);
 
-/// All levels of a volume in the driver's memory, each as preview::Scene has one: 12 bytes a voxel,
+/// All levels of a volume in the driver's memory, each as preview::PreviewVolume has one: 12 bytes a voxel,
 /// and the tiles of the scene's LeafTable, by which kVoxelTableGlsl finds leaves. The tiles stand in
 /// a box of cells where a shader reads one word: in a hash table all lanes of a wave would wait for
 /// the one whose search takes longest. Needs a current Context while it lives.
@@ -32,7 +32,7 @@ public:
     /// @throws Error  InvalidArgument: edges do not double, more than 24 levels; OutOfMemory: not
     ///                even the coarsest fits; Device: too few storage blocks; Cancelled
     VoxelTables(const opengl::Context& context,
-                std::span<const VoxelSource* const> levels,
+                std::span<const VoxelLevel* const> levels,
                 std::int64_t storage_bytes,
                 Progress& progress);
 
@@ -57,10 +57,10 @@ public:
     [[nodiscard]] std::span<const Vec3i> blocks() const { return blocks_; }
 
 private:
-    struct Level;
-    void plan(std::span<const VoxelSource* const> levels, std::int64_t most, Progress& progress);
-    void fill(std::span<const VoxelSource* const> levels, Progress& progress);
-    void write_levels(std::vector<Level>& levels);
+    struct LevelTable;
+    void plan(std::span<const VoxelLevel* const> levels, std::int64_t most, Progress& progress);
+    void fill(std::span<const VoxelLevel* const> levels, Progress& progress);
+    void write_levels(std::vector<LevelTable>& levels);
 
     Vec3d voxel_size_{1.0, 1.0, 1.0}; ///< of level 0
     Bounds bounds_, finest_bounds_;

@@ -3,7 +3,7 @@
 #include <heddle/base/platform.h>
 #include <heddle/base/vec.h>
 #include <heddle/voxel/lattice_units.h>
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 #include <heddle/voxel/weight.h>
 
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 #include <heddle/voxelize/block/accumulator.h>
 #include <heddle/voxelize/block/fit_options.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <heddle/voxel/material_set.h>
-#include <heddle/voxel/voxel_grid.h>
+#include <heddle/voxel/voxel_level.h>
 
 namespace heddle {
 
@@ -10,7 +10,7 @@ struct FitOptions {
     int subvoxels = 8;              ///< per axis of a voxel of level 0: 1, 2, 4 or 8
     int max_lobes = 3;              ///< K
     bool project_subvoxels = false; ///< CoverageMode::Mask: coverage from the subvoxel mask
-    VoxelGridFields fields;         ///< with `masks`, sums are kept too
+    VoxelFields fields;             ///< with `masks`, sums are kept too
     MaterialSet normals{};          ///< the materials whose lobes are of normals
 };
 

@@ -103,7 +103,8 @@ HEDDLE_INLINE void chord_moments(const ChordLanes<L>& k,
 /// Calls visit(mask, word, length) for each part of the centrelines of active chords that lies in one
 /// voxel, and notes the first four in k.passed.
 template <typename L, typename Visit>
-HEDDLE_INLINE void walk_voxels(const LatticeUnits& u, ChordLanes<L>& k, const Visit& visit) {
+HEDDLE_INLINE void
+for_each_chord_voxel(const LatticeUnits& u, ChordLanes<L>& k, const Visit& visit) {
     using Real = typename L::Real;
     using Int = typename L::Int;
     using Mask = typename L::Mask;
@@ -165,7 +166,7 @@ struct ColumnTerms {
 /// Thin chords seen along one axis. `major` is that other axis along which a chord passes more columns,
 /// `minor` the last one.
 template <typename L>
-struct ChordView {
+struct ChordProjection {
     typename L::Mask swapped;        ///< major is the later of the two other axes
     typename L::Real first, last;    ///< columns along major
     typename L::Real strip, strip_i; ///< lower edge of the body at column i, in column indices j
@@ -174,12 +175,13 @@ struct ChordView {
 };
 
 template <typename L, int kDepth>
-[[nodiscard]] HEDDLE_INLINE ChordView<L> view_along(const ChordLanes<L>& k, const LatticeUnits& u) {
+[[nodiscard]] HEDDLE_INLINE ChordProjection<L> project_along(const ChordLanes<L>& k,
+                                                             const LatticeUnits& u) {
     using Real = typename L::Real;
     using Mask = typename L::Mask;
     constexpr int kA = kDepth == 0 ? 1 : 0;
     constexpr int kB = kDepth == 2 ? 1 : 2;
-    ChordView<L> v;
+    ChordProjection<L> v;
     ColumnTerms<L>& t = v.terms;
     v.swapped = abs(k.dir[kA] * Real(u.inv_edge[kA])) < abs(k.dir[kB] * Real(u.inv_edge[kB]));
     const auto pick_axis = [&](Real a, Real b, Real& major, Real& minor) {
@@ -253,7 +255,7 @@ column_depths(const ColumnTerms<L>& t, typename L::Real i, typename L::Real j) {
 
 /// The voxels and subvoxels of a column that a chord meets.
 template <typename L, int kDepth>
-struct ColumnPlace {
+struct ColumnAddress {
     using Real = typename L::Real;
     using Int = typename L::Int;
 
@@ -263,13 +265,13 @@ struct ColumnPlace {
     Int z0{0}, z1{0}, row{0}; ///< along z: first and last subvoxel; bit of the voxel's row of them
 
     /// @param i, j  along major and minor
-    HEDDLE_INLINE ColumnPlace(Int anchor,
-                              typename L::Mask swapped,
-                              Real i,
-                              Real j,
-                              const ColumnDepths<L>& at,
-                              const LatticeUnits& u,
-                              int shift) {
+    HEDDLE_INLINE ColumnAddress(Int anchor,
+                                typename L::Mask swapped,
+                                Real i,
+                                Real j,
+                                const ColumnDepths<L>& at,
+                                const LatticeUnits& u,
+                                int shift) {
         constexpr int kA = kDepth == 0 ? 1 : 0;
         constexpr int kB = kDepth == 2 ? 1 : 2;
         const Int low((1 << shift) - 1);

@@ -39,15 +39,15 @@ HEDDLE_HD inline void mark_columns(const ChordLanes<one::Lanes>& k,
     using one::Int;
     using one::Real;
     const BlockWords<one::Lanes> block(space.size);
-    const ChordView<one::Lanes> v = view_along<one::Lanes, kDepth>(k, space.units);
+    const ChordProjection<one::Lanes> v = project_along<one::Lanes, kDepth>(k, space.units);
     for (Real i = v.first; (i <= v.last).v; i = i + Real(1.0f)) {
         const Real edge = v.strip + v.strip_i * i;
         const Real end = edge + v.width;
         for (Real j = ceil(edge); (j <= end).v; j = j + Real(1.0f)) {
             const ColumnDepths<one::Lanes> at = column_depths(v.terms, i, j);
             if (!at.hit.v) continue;
-            ColumnPlace<one::Lanes, kDepth> place(k.anchor, v.swapped, i, j, at, space.units,
-                                                  space.shift);
+            ColumnAddress<one::Lanes, kDepth> place(k.anchor, v.swapped, i, j, at, space.units,
+                                                    space.shift);
             for (; place.depth.v <= place.last.v; place.depth = place.depth + Int(1)) {
                 const Int word = place.base + (place.depth << field_shift(kDepth));
                 if (!block.holds(word).v) continue;
@@ -117,7 +117,7 @@ gather_chord_op(const ThinChord& chord, Vec3i anchor, const ChordSpace& space, c
     for (int m = 0; m < 8; ++m) moment[m] = moments[m].v;
     const BlockWords<one::Lanes> block(space.size);
     const Real width = Real(2.0f) * k.radius;
-    walk_voxels(space.units, k, chord_detail::PoolPart<Sums>{block, sums, moment, width});
+    for_each_chord_voxel(space.units, k, chord_detail::PoolPart<Sums>{block, sums, moment, width});
     chord_detail::mark_columns<0>(k, moment, space, sums);
     chord_detail::mark_columns<1>(k, moment, space, sums);
     chord_detail::mark_columns<2>(k, moment, space, sums);

@@ -28,7 +28,7 @@ struct PatchDepths {
 };
 
 /// The constants of one cylinder seen along one axis c of a voxel; a and b are the other two.
-struct ColumnView {
+struct ColumnProjection {
     float oa, ob, oc, da, db, dc;
     float ea, eb; ///< subvoxel edges
     float depth;  ///< voxel edge along c
@@ -36,7 +36,7 @@ struct ColumnView {
     float inv_s2; ///< 1 / sin^2
     float lo, hi; ///< axial range
 
-    HEDDLE_INLINE ColumnView(const Cylinder& k, const LatticeUnits& u, int a, int b, int c)
+    HEDDLE_INLINE ColumnProjection(const Cylinder& k, const LatticeUnits& u, int a, int b, int c)
         : oa(k.origin[a]),
           ob(k.origin[b]),
           oc(k.origin[c]),
@@ -68,7 +68,8 @@ struct ColumnView {
 /// the axial range [lo, hi].
 /// @param a0, b0  the patch's first column
 /// @return        bit 4 (b - b0) + (a - a0)
-HEDDLE_INLINE std::uint32_t scan_patch(const ColumnView& v, int a0, int b0, PatchDepths* depths) {
+HEDDLE_INLINE std::uint32_t
+scan_patch(const ColumnProjection& v, int a0, int b0, PatchDepths* depths) {
     const float base_a = static_cast<float>(a0) + 0.5f;
     const float base_b = static_cast<float>(b0) + 0.5f;
     std::uint32_t hits = 0;
@@ -144,7 +145,7 @@ HEDDLE_INLINE std::uint64_t scan_columns(const Cylinder& k,
     const ColumnRange ra = range[a];
     const ColumnRange rb = range[b];
     if (ra.first > ra.last || rb.first > rb.last) return 0;
-    const ColumnView view(k, u, a, b, c);
+    const ColumnProjection view(k, u, a, b, c);
     const int last_base = u.n > 4 ? u.n - 4 : 0;
     std::uint64_t mask = 0;
     for (int b0 = rb.first; b0 <= rb.last; b0 += 4) {

@@ -43,7 +43,7 @@ clip_to_voxel(Vec3f origin, Vec3f inv_dir, Vec3f voxel, float grow, AxialRange r
 /// The flat ends of a cylinder, as they cut columns along z.
 class FlatEnds {
 public:
-    HEDDLE_INLINE FlatEnds(const LatticeUnits& u, const ColumnView& v) : u_(u), v_(v) {
+    HEDDLE_INLINE FlatEnds(const LatticeUnits& u, const ColumnProjection& v) : u_(u), v_(v) {
         const float step = u.edge.z * v.dc; // axial coordinate from one subvoxel to the next
         horizontal_ = step < 1e-6f && step > -1e-6f;
         inv_step_ = 1.0f / (horizontal_ ? 1.0f : step);
@@ -67,7 +67,7 @@ public:
 
 private:
     const LatticeUnits& u_;
-    const ColumnView& v_;
+    const ColumnProjection& v_;
     bool horizontal_;
     float inv_step_;
 };
@@ -79,7 +79,7 @@ template <typename Sums>
 HEDDLE_INLINE int mark_subvoxels(const Sums& sums,
                                  int cell,
                                  const LatticeUnits& u,
-                                 const ColumnView& v,
+                                 const ColumnProjection& v,
                                  int a0,
                                  int b0,
                                  std::uint32_t hits,
@@ -137,7 +137,7 @@ struct DirectionMoment {
 /// scan_columns() without a use for depths.
 struct IgnoreHits {
     HEDDLE_INLINE void
-    operator()(const ColumnView&, int, int, std::uint32_t, const PatchDepths&) const {}
+    operator()(const ColumnProjection&, int, int, std::uint32_t, const PatchDepths&) const {}
 };
 /// Marks the subvoxels of the columns that scan_columns() finds, and counts them.
 template <typename Sums>
@@ -146,8 +146,8 @@ struct MarkHits {
     const LatticeUnits& u;
     int cell;
     int marked = 0;
-    HEDDLE_INLINE void
-    operator()(const ColumnView& v, int a0, int b0, std::uint32_t hits, const PatchDepths& depths) {
+    HEDDLE_INLINE void operator()(
+        const ColumnProjection& v, int a0, int b0, std::uint32_t hits, const PatchDepths& depths) {
         marked += mark_subvoxels(sums, cell, u, v, a0, b0, hits, depths);
     }
 };

@@ -11,9 +11,9 @@ namespace heddle {
 /// Plain chords that wait until there are enough for the lanes.
 class ChordQueue {
 public:
-    static constexpr int kMost = 64;
+    static constexpr int kMax = 64;
 
-    [[nodiscard]] bool full() const { return count_ == kMost; }
+    [[nodiscard]] bool full() const { return count_ == kMax; }
     void add(const Chord& chord, Vec3i anchor, std::uint32_t color) {
         const auto i = static_cast<std::size_t>(count_++);
         for (int a = 0; a < 3; ++a) {
@@ -46,11 +46,11 @@ public:
     }
 
 private:
-    std::array<std::array<float, kMost>, 3> start_{}, dir_{};
-    std::array<float, kMost> no_bend_{};
-    std::array<std::array<std::int32_t, kMost>, 3> anchor_{};
-    std::array<float, kMost> length_{}, before_{}, after_{}, radius_{};
-    std::array<std::uint32_t, kMost> color_{};
+    std::array<std::array<float, kMax>, 3> start_{}, dir_{};
+    std::array<float, kMax> no_bend_{};
+    std::array<std::array<std::int32_t, kMax>, 3> anchor_{};
+    std::array<float, kMax> length_{}, before_{}, after_{}, radius_{};
+    std::array<std::uint32_t, kMax> color_{};
     int count_ = 0;
 };
 

@@ -28,7 +28,7 @@ HEDDLE_CLONES void gather_thick(const Chord& chord, Vec3i anchor, const GatherTa
 
 } // namespace
 
-struct FiberGatherer::State {
+struct FiberGatherer::Impl {
     const FiberSource& source;
     LatticeUnits units;
     GatherOptions options;
@@ -69,7 +69,7 @@ struct FiberGatherer::State {
     void set_loops(const YarnType& yarn, std::size_t first, double s0, double s1);
 };
 
-GatherTarget FiberGatherer::State::target_of(std::uint32_t set, BlockSums& block) const {
+GatherTarget FiberGatherer::Impl::target_of(std::uint32_t set, BlockSums& block) const {
     return {
         block,
         units,
@@ -78,7 +78,7 @@ GatherTarget FiberGatherer::State::target_of(std::uint32_t set, BlockSums& block
         {.material = source.geometry().curves[set].material, .last = options.fit == FitMode::Last}};
 }
 
-void FiberGatherer::State::gather_run(const PieceTarget& target) {
+void FiberGatherer::Impl::gather_run(const PieceTarget& target) {
     for (std::size_t j = 0; j < chords.size(); ++j) {
         if (mask || chords[j].radius > kThickRadius) {
             const auto count = static_cast<double>(chords.size());
@@ -90,10 +90,10 @@ void FiberGatherer::State::gather_run(const PieceTarget& target) {
     }
 }
 
-void FiberGatherer::State::gather_one(const Chord& chord,
-                                      const PieceTarget& target,
-                                      double begin,
-                                      double width) const {
+void FiberGatherer::Impl::gather_one(const Chord& chord,
+                                     const PieceTarget& target,
+                                     double begin,
+                                     double width) const {
     if (!mask) {
         gather_thick(chord, target.anchor, target.block);
         return;
@@ -104,10 +104,10 @@ void FiberGatherer::State::gather_one(const Chord& chord,
                    {options.samples, from, from + width / parts});
 }
 
-void FiberGatherer::State::gather_chords(std::size_t first,
-                                         const PieceTarget& target,
-                                         double t0,
-                                         double t1) {
+void FiberGatherer::Impl::gather_chords(std::size_t first,
+                                        const PieceTarget& target,
+                                        double t0,
+                                        double t1) {
     std::array<std::array<std::int32_t, FiberTile::kRow>, 3> anchor;
     std::array<float, FiberTile::kRow> radius;
     for (int a = 0; a < 3; ++a) anchor[static_cast<std::size_t>(a)].fill(target.anchor[a]);
@@ -133,7 +133,7 @@ void FiberGatherer::State::gather_chords(std::size_t first,
     }
 }
 
-void FiberGatherer::State::gather_one_by_one(
+void FiberGatherer::Impl::gather_one_by_one(
     std::size_t first, int j, float radius, const PieceTarget& target, double begin, double width) {
     PieceTarget own = target;
     for (int f = 0; f < tile.fibers; ++f) {
@@ -149,7 +149,7 @@ void FiberGatherer::State::gather_one_by_one(
     }
 }
 
-void FiberGatherer::State::gather_piece(const FiberPiece& piece, BlockSums& block) {
+void FiberGatherer::Impl::gather_piece(const FiberPiece& piece, BlockSums& block) {
     const LocalCubic cubic(piece.cubic, units);
     PieceTarget target{target_of(piece.set, block), cubic.anchor - block.lo(), piece.part,
                        piece.parts};
@@ -161,9 +161,9 @@ void FiberGatherer::State::gather_piece(const FiberPiece& piece, BlockSums& bloc
     }
 }
 
-void FiberGatherer::State::gather_plain(const FiberPiece& piece,
-                                        const LocalCubic& cubic,
-                                        PieceTarget& target) {
+void FiberGatherer::Impl::gather_plain(const FiberPiece& piece,
+                                       const LocalCubic& cubic,
+                                       PieceTarget& target) {
     const FiberView fibers = source.view();
     const CurveSetView& set = fibers.sets[piece.set];
     if (set.color != nullptr) target.block.paint.color = set.color_of(piece);
@@ -172,9 +172,9 @@ void FiberGatherer::State::gather_plain(const FiberPiece& piece,
     gather_run(target);
 }
 
-void FiberGatherer::State::gather_yarn(const FiberPiece& piece,
-                                       const LocalCubic& cubic,
-                                       PieceTarget& target) {
+void FiberGatherer::Impl::gather_yarn(const FiberPiece& piece,
+                                      const LocalCubic& cubic,
+                                      PieceTarget& target) {
     const YarnType& yarn = *source.yarn_of(piece.set);
     if (table_set != piece.set || table_curve != piece.curve) {
         table = place_fibers(yarn, source.seed() + piece.set, piece.curve);
@@ -206,12 +206,12 @@ void FiberGatherer::State::gather_yarn(const FiberPiece& piece,
     if (yarn.flyaways && yarn.hair_density > 0.0f) gather_hairs(yarn, cubic, course, target);
 }
 
-void FiberGatherer::State::gather_tiles(const YarnType& yarn,
-                                        const PlySection& section,
-                                        const PieceTarget& target,
-                                        const YarnCourse& course,
-                                        double t0,
-                                        double t1) {
+void FiberGatherer::Impl::gather_tiles(const YarnType& yarn,
+                                       const PlySection& section,
+                                       const PieceTarget& target,
+                                       const YarnCourse& course,
+                                       double t0,
+                                       double t1) {
     const bool with_loops = yarn.flyaways && yarn.loop_density > 0.0f;
     std::array<PlyPart, 8> parts;
     std::size_t ply = 0;
@@ -237,10 +237,7 @@ void FiberGatherer::State::gather_tiles(const YarnType& yarn,
     }
 }
 
-void FiberGatherer::State::set_loops(const YarnType& yarn,
-                                     std::size_t first,
-                                     double s0,
-                                     double s1) {
+void FiberGatherer::Impl::set_loops(const YarnType& yarn, std::size_t first, double s0, double s1) {
     const LoopModel model(yarn);
     const int samples = tile.chords + 3;
     const auto fibers = static_cast<std::size_t>(tile.fibers);
@@ -270,10 +267,10 @@ void FiberGatherer::State::set_loops(const YarnType& yarn,
     }
 }
 
-void FiberGatherer::State::gather_hairs(const YarnType& yarn,
-                                        const LocalCubic& cubic,
-                                        const YarnCourse& course,
-                                        PieceTarget& target) {
+void FiberGatherer::Impl::gather_hairs(const YarnType& yarn,
+                                       const LocalCubic& cubic,
+                                       const YarnCourse& course,
+                                       PieceTarget& target) {
     const HairModel model(HairShape(yarn), course.total, course.closed);
     const std::uint64_t seed = source.seed() + table_set;
     for (std::size_t ply = 0; ply + 1 < table.first_of_ply.size(); ++ply) {
@@ -295,23 +292,23 @@ void FiberGatherer::State::gather_hairs(const YarnType& yarn,
 FiberGatherer::FiberGatherer(const FiberSource& source,
                              const LatticeUnits& units,
                              const GatherOptions& options)
-    : state_(new State{.source = source,
-                       .units = units,
-                       .options = options,
-                       .mask = options.coverage == CoverageMode::Mask,
-                       .table = {},
-                       .tile = {},
-                       .frames = {},
-                       .loops = {},
-                       .chords = {},
-                       .queue = {}}) {}
+    : impl_(new Impl{.source = source,
+                     .units = units,
+                     .options = options,
+                     .mask = options.coverage == CoverageMode::Mask,
+                     .table = {},
+                     .tile = {},
+                     .frames = {},
+                     .loops = {},
+                     .chords = {},
+                     .queue = {}}) {}
 
 FiberGatherer::~FiberGatherer() = default;
 
 void FiberGatherer::gather(std::span<const PieceId> pieces,
                            BlockSums& block,
                            const Progress& progress) {
-    State& state = *state_;
+    Impl& state = *impl_;
     const bool last = state.options.fit == FitMode::Last;
     std::uint32_t set = 0; // of the chords that wait
     std::size_t done = 0;

@@ -30,8 +30,8 @@ public:
     void gather(std::span<const PieceId> pieces, BlockSums& block, const Progress& progress);
 
 private:
-    struct State;
-    std::unique_ptr<State> state_;
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
 };
 
 } // namespace heddle

@@ -16,10 +16,10 @@ namespace lane_detail {
 template <typename L>
 struct Candidates {
     using Real = typename L::Real;
-    static constexpr int kMost = 256;
+    static constexpr int kMax = 256;
     int count = 0;
-    alignas(64) std::int32_t lane[kMost + L::kLanes];
-    alignas(64) float i[kMost + L::kLanes], j[kMost + L::kLanes];
+    alignas(64) std::int32_t lane[kMax + L::kLanes];
+    alignas(64) float i[kMax + L::kLanes], j[kMax + L::kLanes];
 
     void add(std::uint32_t mask, Real column_i, Real column_j) {
         const typename L::Int order = L::set_lanes(mask);
@@ -89,7 +89,7 @@ inline void graze(const LaneBlock<L>& b,
 template <typename L, int kDepth>
 inline void mark_candidates(const LaneBlock<L>& b,
                             const LaneChords<L>& k,
-                            const ChordView<L>& v,
+                            const ChordProjection<L>& v,
                             const Candidates<L>& list) {
     using Real = typename L::Real;
     using Int = typename L::Int;
@@ -104,8 +104,8 @@ inline void mark_candidates(const LaneBlock<L>& b,
         depths.hit = depths.hit & (Int(list.count - at) > Int::iota());
         if (depths.hit.bits() == 0) continue;
 
-        ColumnPlace<L, kDepth> place(pick(k.anchor, lane), pick(v.swapped, lane), i, j, depths,
-                                     b.target.units, shift);
+        ColumnAddress<L, kDepth> place(pick(k.anchor, lane), pick(v.swapped, lane), i, j, depths,
+                                       b.target.units, shift);
         const Int bit = place.bit << 16;
         for (Mask open = depths.hit; open.bits() != 0;) {
             const Int word = place.base + (place.depth << field_shift(kDepth));
@@ -134,7 +134,7 @@ inline void mark_columns(const LaneBlock<L>& b, const LaneChords<L>& k) {
     using Real = typename L::Real;
     using Int = typename L::Int;
     using Mask = typename L::Mask;
-    const ChordView<L> v = view_along<L, kDepth>(k, b.target.units);
+    const ChordProjection<L> v = project_along<L, kDepth>(k, b.target.units);
     Candidates<L> list;
     const auto flush = [&] {
         Int(0).store(list.lane + list.count); // the last eight are read whole
@@ -153,7 +153,7 @@ inline void mark_columns(const LaneBlock<L>& b, const LaneChords<L>& k) {
         Real j = ceil(edge);
         for (int t = 0; t < tries; ++t) {
             list.add((row & (j <= end)).bits(), i, j);
-            if (list.count > Candidates<L>::kMost - L::kLanes) flush();
+            if (list.count > Candidates<L>::kMax - L::kLanes) flush();
             j = j + Real(1.0f);
         }
         i = i + Real(1.0f);

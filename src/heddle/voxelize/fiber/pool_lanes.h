@@ -59,7 +59,7 @@ inline void pool_lanes(const LaneBlock<L>& b, LaneChords<L>& k) {
     using Int = typename L::Int;
     using Mask = typename L::Mask;
     const Real width = Real(2.0f) * k.radius;
-    walk_voxels<L>(b.target.units, k, [&](Mask some, Int word, Real length) {
+    for_each_chord_voxel<L>(b.target.units, k, [&](Mask some, Int word, Real length) {
         const std::uint32_t hits = (some & b.holds(word)).bits();
         if (hits == 0) return;
         alignas(32) std::int32_t cell[L::kLanes];

@@ -18,7 +18,7 @@ TriangleWork TriangleGatherer::gather(std::span<const Primitive> triangles,
     std::size_t done = 0;
     for (const Primitive id : triangles) {
         if (done++ % 256 == 0) progress.check();
-        const TrianglePlace at = view.place(triangle_of(id));
+        const TriangleId at = view.place(triangle_of(id));
         MaterialSums sums(block, view.meshes[at.mesh].material, last_);
         work = work + add_triangle(view, at, units_, block.lo(), block.hi(), sums, scratch_);
     }

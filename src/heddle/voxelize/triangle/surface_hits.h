@@ -39,7 +39,7 @@ struct TriangleWork {
 
 /// Least weight of a hit, units^2: a voxel that a surface passes edge-on still gets its direction.
 /// It adds at most a thousandth to what the other axes weigh.
-constexpr double kLeastWeight = 1.0 / 1024.0;
+constexpr double kMinWeight = 1.0 / 1024.0;
 
 /// A direction's second moment times a weight, in fixed point.
 struct Share {
@@ -68,7 +68,7 @@ HEDDLE_HD inline std::array<float, 3> hit_weights(Vec3d normal, const LatticeUni
     for (int axis = 0; axis < 3; ++axis) {
         const double area = hit_weight(normal, axis, to_double(units.edge));
         weights[static_cast<std::size_t>(axis)] =
-            static_cast<float>(area < kLeastWeight ? kLeastWeight : area) * kWeightScale;
+            static_cast<float>(area < kMinWeight ? kMinWeight : area) * kWeightScale;
     }
     return weights;
 }
@@ -165,7 +165,7 @@ struct BlockTriangle {
     const BlockTarget<Sums> target;
     const SurfaceView& surfaces;
     const LatticeUnits& units;
-    TrianglePlace place;
+    TriangleId place;
 
     [[nodiscard]] HEDDLE_HD const MeshView& mesh() const { return surfaces.meshes[place.mesh]; }
     [[nodiscard]] HEDDLE_HD TriangleSetup set_up() const {
@@ -201,7 +201,7 @@ public:
     [[nodiscard]] HEDDLE_HD TriangleWork work() const { return {hits_, 0}; }
 
 private:
-    HEDDLE_SELDOM void set_up() {
+    HEDDLE_COLD void set_up() {
         const TriangleSetup setup = t_.set_up();
         const std::array<float, 3> weight = hit_weights(setup.normal, t_.units);
         for (std::size_t a = 0; a < 3; ++a) {
@@ -254,7 +254,7 @@ public:
     }
 
     /// Pools the last run.
-    HEDDLE_SELDOM void flush() {
+    HEDDLE_COLD void flush() {
         if (count_ == 0) return;
         ++samples_;
         SurfaceHit middle{axis_, at_.x, at_.y, at_.z};
@@ -267,12 +267,12 @@ public:
     [[nodiscard]] HEDDLE_HD TriangleWork work() const { return {hits_, samples_}; }
 
 private:
-    HEDDLE_SELDOM void set_up() {
+    HEDDLE_COLD void set_up() {
         setup_ = t_.set_up();
         weight_ = hit_weights(setup_.normal, t_.units);
     }
 
-    HEDDLE_SELDOM void pool_covered(const SurfaceHit& hit) {
+    HEDDLE_COLD void pool_covered(const SurfaceHit& hit) {
         ++samples_;
         const SurfaceSample s = sample_at(t_.surfaces.seed, setup_, hit);
         if (!s.covered) return;

@@ -117,7 +117,7 @@ HEDDLE_HD inline TriangleWork add_displaced(const BlockTriangle<Sums>& t, Scratc
 /// @param scratch  DisplaceScratch, or NoScratch
 template <SurfaceKind Kind, typename Sums, typename Scratch>
 HEDDLE_HD inline TriangleWork add_triangle(const SurfaceView& surfaces,
-                                           TrianglePlace place,
+                                           TriangleId place,
                                            const LatticeUnits& units,
                                            Vec3i lo,
                                            Vec3i hi,
@@ -133,7 +133,7 @@ HEDDLE_HD inline TriangleWork add_triangle(const SurfaceView& surfaces,
 /// The same of any kind.
 template <typename Sums, typename Scratch>
 HEDDLE_HD inline TriangleWork add_triangle(const SurfaceView& surfaces,
-                                           TrianglePlace place,
+                                           TriangleId place,
                                            const LatticeUnits& units,
                                            Vec3i lo,
                                            Vec3i hi,

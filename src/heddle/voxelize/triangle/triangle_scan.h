@@ -178,7 +178,7 @@ HEDDLE_HD inline RowSpan scan_row_as(const AxisScan& s, std::int64_t row) {
 using Int128 = __int128;
 
 /// For triangles longer than 2^18 subvoxels.
-HEDDLE_SELDOM RowSpan scan_wide_row(const AxisScan& s, std::int64_t row) {
+HEDDLE_COLD RowSpan scan_wide_row(const AxisScan& s, std::int64_t row) {
     return scan_row_as<Int128>(s, row);
 }
 
