@@ -52,7 +52,7 @@ void open_window(const job::LoadedView& view,
     job::make_folder(view.subject.folder);
     bar.finish(); // its line would stay over the window's life
     const window::WindowCounts counts =
-        window::run_window(view.subject, job::view_settings_from(options, view.subject),
+        window::run_window(view.subject, job::view_settings(options, view.subject),
                            {.width = options.width, .height = options.height}, bar);
     bar.check();
     report.text("driver", counts.driver);
