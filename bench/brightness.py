@@ -1,12 +1,16 @@
 #!/usr/bin/env python3
-"""Brightness of voxels against the same geometry traced, by level, order of scattering and angle between light and camera.
+"""Brightness of voxels against the same geometry traced, by level, order of scattering and angle
+between light and camera.
 
-usage: bench/brightness.py [-o FOLDER] [--scene knit lobes strands spot] [--level 0 2 4] [--angle 0 35 80 130] [--depth 1 64] [--samples 32]
+usage: bench/brightness.py [-o FOLDER] [--scene knit lobes strands spot] [--level 0 2 4]
+                           [--angle 0 35 80 130] [--depth 1 64] [--samples 32]
                            [--transport product...]
-knit: 4 x 5 stockinette loops of yarn `cotton` at 1024 voxels; strands: 40 hairs far apart; spot: a cow of Lambertian surface at 256 voxels. A fixed camera, one
-directional light, albedo .9 .5 .2 (lobes: the knit of R and TT lobes), 64 x 64 pixels. Depth 1 is single scattering: it shows what the phase function and the correlation of view and light
-cost, without the rest. At angle 0 a medium of independent points returns half of what opaque things do, which are lit wherever they are seen.
-Needs what tools/compare needs.
+knit: 4 x 5 stockinette loops of yarn `cotton` at 1024 voxels; strands: 40 hairs far apart; spot: a
+cow with a Lambertian surface at 256 voxels. A fixed camera, one directional light, albedo
+0.9 0.5 0.2 (lobes: the knit with R and TT lobes), 64 x 64 pixels. Depth 1 is single scattering: it
+shows the error of the phase function and of the correlation of view and light alone. At angle 0 a
+medium of independent points returns half of the light of opaque objects, which are lit wherever
+they are visible. Needs the packages of tools/compare.
 """
 import argparse
 import math
@@ -18,7 +22,7 @@ from protocol import DATA, basis, corners, dot, heddle, made, middle, plus, unit
 FIBER = "model = \"fiber\"\nalbedo = [0.9, 0.5, 0.2]\n"
 LOBES = "model = \"lobe_fiber\"\ncolor_r = 0.04\ncolor_tt = [0.9, 0.6, 0.3]\nwidth_r = 8\nwidth_tt = 27\nazimuth_tt = 38\n"
 SURFACE = "model = \"surface\"\nalbedo = [0.9, 0.5, 0.2]\nroughness = 1\nmetalness = 0\nspecular = 0\n"
-# what is generated or read, how it is voxelized, the yarn of the scene, the material, where the camera stands
+# input that is generated or read, options of voxelize, yarn, material, side of the camera
 SCENES = {
     "knit": (["knit", "--counts", "4,5"], ["--voxels", 1024, "--yarn", "cotton", "--yarn-radius", 0.1],
              "yarn = \"cotton\"\nyarn_radius = 0.1\n", FIBER, (0, 0, 1)),
@@ -30,7 +34,7 @@ SCENES = {
 
 
 def prepare(folder, name):
-    """Geometry and volume."""
+    """The paths of the geometry and of the volume."""
     origin, voxels, _, _, _ = SCENES[name]
     path = os.path.join(folder, "strands.hair" if name == "strands" else f"{name}.bcc")
     if isinstance(origin, str):
@@ -43,7 +47,7 @@ def prepare(folder, name):
 
 
 def scene_text(name, path, volume, angle, depth):
-    """The camera faces the object; the light stands `angle` degrees to its side."""
+    """The camera faces the object; the light is `angle` degrees to its side."""
     _, _, yarn, material, front = SCENES[name]
     bounds = heddle("info", path)["bounds"]
     c = middle(bounds)
@@ -58,7 +62,7 @@ def scene_text(name, path, volume, angle, depth):
 
 
 def rows(name, a, run, jobs):
-    """Prints the table's rows of a scene."""
+    """Prints the rows of a scene."""
     path, volume = prepare(a.output, name)
     common = ["--size", "64x64", "--samples", a.samples]
     scene, traced, test = (os.path.join(a.output, file) for file in ("it.toml", "traced.exr", "test.exr"))

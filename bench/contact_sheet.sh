@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Voxelizes and previews every file under shared/data/{yarn,hair,mesh}, one command each, and joins the
-# pictures to one sheet a folder. usage: bash bench/contact_sheet.sh OUT_FOLDER   (needs build/release/bin/heddle,
-# xz; for the sheets ImageMagick's montage)
+# Voxelizes and previews every file under shared/data/{yarn,hair,mesh}, one command each, and joins
+# the pictures to one sheet per folder. usage: bash bench/contact_sheet.sh OUT_FOLDER (needs
+# build/release/bin/heddle, xz; for the sheets ImageMagick's montage)
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 data=${HEDDLE_TEST_DATA:-$root/../shared/data}
@@ -30,7 +30,7 @@ for f in glove knittubeinit; do picture $f yarn "$yarn/bcc-modified/$f.bcc" "" -
 for f in basket cartridge_belt_rib satin stockinette stockinette_small; do
   picture $f yarn "$yarn/patterns/$f.pyp" "" --yarn cotton --repeat 3,3 --voxels 512
 done
-for fit in cotton1 rayon1 silk1; do # a piece, near: plies and fibers show
+for fit in cotton1 rayon1 silk1; do # a close-up of a piece, which shows plies and fibers
   params=$(find "$data/params" -name "$fit*.txt" | head -1)
   picture cable_$fit fits "$yarn/bcc/cable_work_pattern.bcc" "--color tangent" --yarn "$params" \
     --voxel-size 0.012 --bounds -1.5,-1.5,-5,1.5,1.5,5

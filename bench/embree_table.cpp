@@ -20,7 +20,7 @@ double now() {
         .count();
 }
 
-/// Remembers how many segments were expanded, and when each stage began.
+/// Counts the expanded segments and records when each phase began.
 class Stages final : public Progress {
 public:
     void begin(std::string_view stage, std::string_view, std::int64_t total) override {
@@ -51,7 +51,7 @@ Geometry load(int argc, char** argv) {
     return geometry;
 }
 
-/// Rays across the object's box: parallel to z in the order of pixels, or from random points in it.
+/// Shoots rays through the object's box: parallel to z in pixel order, or from random points in it.
 void shoot(const SurfaceScene& scene, const Bounds& box, bool inside) {
     StreamRandom random{1};
     constexpr int kRays = 1000000;

@@ -1,4 +1,4 @@
-// What evaluating a yarn's fibers costs by itself: the floor under bench/voxelize_speed.py.
+// The time to evaluate a yarn's fibers alone: the lower bound of bench/voxelize_speed.py.
 #include <heddle/voxelize/fiber/gather_kernels.h>
 
 #include <benchmark/benchmark.h>
@@ -9,8 +9,8 @@
 namespace heddle {
 namespace {
 
-/// Three plies of 50 fibers at 4 chords (7 samples): a span of the sweater at 1024 voxels. Items are
-/// chords; one is 4.2 steps there.
+/// Three plies of 50 fibers with 4 chords (7 samples): a span of the sweater at 1024 voxels. Items
+/// are chords; one chord is 4.2 steps there.
 void expand_span(benchmark::State& state) {
     YarnType yarn;
     yarn.model = YarnModel::Procedural;

@@ -2,8 +2,9 @@
 """Pictures of volumes beside the same geometry traced: gallery.png and one .png each.
 
 usage: bench/gallery.py [-o FOLDER] [--scene NAME...] [--size 384] [--samples 64] [--no-traced]
-Scenes without a camera are framed and lit by `heddle render`. sweater: `cotton1`, three instances at distances 1, 4 and 16 (Embree: 280 s, 8.4 GiB);
-scarf has no geometry; weaves lie under a light that grazes them. Volumes are kept in FOLDER (default build/gallery). Needs Pillow; HEDDLE and
+Scenes without a camera are framed and lit by `heddle render`. sweater: `cotton1`, three instances
+at distances 1, 4 and 16 (Embree: 280 s, 8.4 GiB); scarf has no geometry; weaves are lit at a
+grazing angle. Volumes are kept in FOLDER (default build/gallery). Needs Pillow; HEDDLE and
 HEDDLE_TEST_DATA as in the other scripts.
 """
 import argparse
@@ -19,7 +20,7 @@ ALL = "materials = { \"*\" = \"it\" }\n"
 COTTON1 = os.path.join(DATA, "params/zhao2016/cotton1.txt")
 SKY = "[[light]]\nkind = \"constant\"\ncolor = [0.1, 0.12, 0.15]\n"
 GRAZING = SKY + protocol.sun_text([1.0, 0.25, -0.2], [6.0, 5.6, 5.0])
-# name: input (a file, or what is generated), options of voxelize, keys of the object, the rest of the scene
+# name: input (a file, or words of generate), options of voxelize, keys of the object, rest of it
 SCENES = {
     "scarf": ("volume/scarf-part.tar.xz", ["--albedo", ".8,.55,.35"], "", ""),
     "straight": ("hair/straight.hair", ["--voxels", 768], ALL, HAIR.format(0.6)),
@@ -38,7 +39,7 @@ SCENES = {
 
 
 def source(folder, name):
-    """The file to voxelize; None in place of geometry where there is none to trace."""
+    """The file to voxelize; the geometry is None if there is none to trace."""
     origin = SCENES[name][0]
     if isinstance(origin, list):
         path = os.path.join(folder, f"{name}.bcc")
@@ -55,7 +56,7 @@ def source(folder, name):
 
 
 def pictures(folder, name, a):
-    """The picture of the volume, and that of the geometry or None."""
+    """The picture of the volume, and that of the geometry, or None."""
     path, geometry = source(folder, name)
     _, options, keys, more = SCENES[name]
     volume = os.path.join(folder, f"{name}.vdb")

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""Place and width of highlights by level, beside traced geometry, as a markdown table.
+"""Position and width of highlights by level, beside traced geometry, as a markdown table.
 
 usage: bench/highlight.py [-o FOLDER] [--voxels 256] [--level 0 1 2 3 4 5] [--samples 256]
-A brushed plate and a sheet of straight dark hair lie in x and y, brushed and combed along y, seen and lit at 45 degrees from either side so that the
-middle mirrors the light. Profiles of luminance through the middle third, across and along; centre and full width at half of the maximum, in degrees
-seen from the camera. Volumes are kept in FOLDER (default build/highlight), pictures are written there (.png too). Needs what tools/compare needs.
+A brushed plate and a sheet of straight dark hair lie in the xy plane, brushed and combed along y.
+Camera and light are at 45 degrees on opposite sides, so that the middle mirrors the light. Measures
+profiles of luminance through the middle third, across and along: centre and full width at half
+maximum, in degrees from the camera. Volumes are kept in FOLDER (default build/highlight), which
+also gets the pictures (.png too). Needs the packages of tools/compare.
 """
 import argparse
 import math

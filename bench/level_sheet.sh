@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# level_sheet.sh X.vdb OUT.png [COLOR]: levels 0 to 5 of a volume side by side, a row for each method in the order below, all
-# built from the volume's own level 0. COLOR as `heddle preview --color` has it. Needs build/release/bin/heddle (or HEDDLE=...) and ImageMagick.
+# level_sheet.sh X.vdb OUT.png [COLOR]: levels 0 to 5 of a volume side by side, one row per method
+# in the order below, all built from the volume's own level 0. COLOR as in `heddle preview --color`.
+# Needs build/release/bin/heddle (or HEDDLE=...) and ImageMagick.
 set -euo pipefail
 heddle=${HEDDLE:-$(dirname "$0")/../build/release/bin/heddle}
 volume=$1

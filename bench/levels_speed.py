@@ -2,8 +2,9 @@
 """Speed, memory and size of the levels of detail that `heddle voxelize` builds, as a markdown table.
 
 usage: bench/levels_speed.py [--quick]
-The sweater at 1024 and 2048 voxels, straight hair, generated cloth of solid yarn from 1 M to 50 M voxels of one size, and the scarf part
-(an import: levels from stored lobes). Times of levels are those of all threads together, divided by their number.
+The sweater at 1024 and 2048 voxels, straight hair, generated cloth of solid yarn from 1 M to 50 M
+voxels of one size, and the scarf part (an import: levels from stored lobes). Times of levels are
+the sum over all threads, divided by their number.
 Needs build/release/bin/heddle (or HEDDLE=...) and ../shared/data (or HEDDLE_TEST_DATA=...).
 """
 import argparse
@@ -27,7 +28,7 @@ def heddle(*words):
 def row(name, result, path):
     levels = heddle("info", path)["levels"]
     sizes = [level["bytes"] for level in levels]
-    if "levels_thread_seconds" in result:  # within the voxelizer
+    if "levels_thread_seconds" in result:  # built within the voxelizer
         seconds = result["levels_thread_seconds"] / THREADS
         share = f"{seconds / (result['voxelize_seconds'] - seconds):.0%}"
     else:

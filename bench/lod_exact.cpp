@@ -1,4 +1,4 @@
-// Prints, as markdown, how near each level's lobes are to all directions of the finest geometry.
+// Prints, as markdown, the error of each level's lobes against all directions of finest geometry.
 
 #include "lod_exact/directions.h"
 #include "lod_exact/parents.h"
@@ -31,8 +31,8 @@
 namespace heddle::bench {
 namespace {
 
-constexpr std::size_t kParents = 2000; ///< of each level, all where it has fewer
-constexpr double kSpacing = 0.5;       ///< of points on triangles, subvoxels
+constexpr std::size_t kParents = 2000; ///< per level; all if it has fewer
+constexpr double kSpacing = 0.5;       ///< distance of points on triangles, subvoxels
 
 double seconds() {
     const auto now = std::chrono::steady_clock::now().time_since_epoch();
@@ -44,7 +44,7 @@ std::string data_path(const std::string& name) {
     return (folder != nullptr ? std::string(folder) : std::string(HEDDLE_DATA_DIR)) + "/" + name;
 }
 
-/// Cloth of the preset yarn of 150 fibers, without flyaways.
+/// Cloth of the preset yarn with 150 fibers, without flyaways.
 Geometry make_cloth(GenerateKind kind) {
     Geometry geometry = generate({.kind = kind, .nx = 12, .ny = 12});
     YarnType yarn = read_yarn("cotton").yarn;
@@ -58,9 +58,9 @@ Geometry make_cloth(GenerateKind kind) {
 struct Object {
     const char* name;
     std::int64_t voxels; ///< along the longest axis, with all methods but wasserstein
-    std::int64_t few;    ///< the same beside wasserstein, which takes milliseconds a parent
+    std::int64_t few;    ///< the same with wasserstein, which takes milliseconds per parent
     Geometry (*make)();
-    const char* file; ///< that is read, in the data folder
+    const char* file; ///< input file in the data folder
 };
 
 constexpr Object kObjects[] = {
@@ -78,10 +78,10 @@ constexpr Object kObjects[] = {
 constexpr LodMethod kMethods[] = {LodMethod::Moments, LodMethod::Single, LodMethod::Naive,
                                   LodMethod::Random, LodMethod::Interpolate};
 
-/// Errors of all levels of one method.
+/// The errors of all levels of one method.
 using MethodErrors = std::map<LodMethod, std::vector<LevelErrors>>;
 
-/// Voxelizes with levels; what comes back was written to a file and read again.
+/// Voxelizes with levels, writes them to a file and reads them back.
 VoxelLevels build(const Geometry& geometry, std::int64_t voxels, LodMethod method) {
     VoxelizeOptions options;
     options.voxels = voxels;
@@ -98,10 +98,10 @@ VoxelLevels build(const Geometry& geometry, std::int64_t voxels, LodMethod metho
     return read;
 }
 
-/// Chosen voxels of each level with what lies in them.
+/// Chosen voxels of each level with the directions of the geometry in them.
 std::vector<Parents> find_truth(const Geometry& geometry, const VoxelLevels& levels) {
     std::vector<Parents> parents;
-    std::size_t walked = 0; // levels that directions are added to; above, voxels add their children
+    std::size_t walked = 0; // levels with directions of their own; others sum their children
     for (const auto& level : levels) {
         if (parents.empty() || !parents.back().has_all()) ++walked;
         parents.emplace_back(*level, kParents);
@@ -134,7 +134,7 @@ std::string percent(double share) {
     return text;
 }
 
-/// Compares the levels above 0 with their goals and prints each row that falls short.
+/// Compares the levels above 0 with their goals and prints each row that misses one.
 class Verdict {
 public:
     void check(const std::string& object, const MethodErrors& errors) {
@@ -171,7 +171,7 @@ public:
         }
     }
     void print() const {
-        std::printf("\n%d of %d comparisons kept.\n\n", checks_ - static_cast<int>(lines_.size()),
+        std::printf("\n%d of %d comparisons passed.\n\n", checks_ - static_cast<int>(lines_.size()),
                     checks_);
         for (const std::string& line : lines_) std::printf("- %s\n", line.c_str());
         for (const auto& [what, ratio] : {std::pair{"sigma", sigma_}, std::pair{"L1", cells_}}) {
@@ -189,7 +189,7 @@ private:
         lines_.push_back(what + text);
     }
 
-    /// moments to wasserstein
+    /// ratio of moments to wasserstein
     struct Ratio {
         double least = 1e9;
         double most = 0.0;
@@ -213,7 +213,7 @@ void print_head() {
         "| object | level | voxels | measured | method | moment max | median | sums: max | median | sigma | L1 |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
 }
 
-/// Measures an object with some methods and prints a row for each level and method.
+/// Measures an object with some methods and prints one row for each level and method.
 void run(const Object& object,
          std::int64_t voxels,
          std::span<const LodMethod> methods,
@@ -248,7 +248,7 @@ void run(const Object& object,
         const std::string name = str(object.name, " ", voxels, kind == 1 ? ", tangents" : "");
         for (std::size_t l = 0; l < parents.size(); ++l) {
             for (const LodMethod method : methods) {
-                const bool any = l == 0; // all methods have the same
+                const bool any = l == 0; // it is the same for all methods
                 print_row(name.c_str(), l, parents[l], any ? "-" : name_of(method),
                           errors[kind][method][l]);
                 if (any) break;
@@ -260,7 +260,7 @@ void run(const Object& object,
                  static_cast<long long>(voxels), seconds() - start, times.c_str(), lost);
 }
 
-/// Runs the objects that the command line names, or all.
+/// Runs the objects that are named on the command line, or all.
 void run_all(std::span<char* const> names, bool with_wasserstein, Verdict& verdict) {
     std::vector<LodMethod> methods(std::begin(kMethods), std::end(kMethods));
     if (with_wasserstein) methods.insert(methods.begin() + 1, LodMethod::Wasserstein);
@@ -282,7 +282,7 @@ void run_all(std::span<char* const> names, bool with_wasserstein, Verdict& verdi
 } // namespace
 } // namespace heddle::bench
 
-/// heddle_lod_exact [OBJECT...]: both tables, of the objects named or of all.
+/// heddle_lod_exact [OBJECT...]: both tables, of the named objects or of all.
 int main(int argc, char** argv) try {
     using namespace heddle::bench;
     const std::span<char* const> names(argv + 1, static_cast<std::size_t>(argc - 1));

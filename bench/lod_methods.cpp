@@ -21,7 +21,7 @@
 #include <vector>
 
 // heddle_lod_methods FILE.vdb [PARENTS = 2000] [LEVELS = 5]: for each level and method the error of
-// K = 3 lobes against all finest lobes below, the mean of PARENTS seeded parents, as markdown.
+// K = 3 lobes against all finest lobes below, averaged over PARENTS random parents, as markdown.
 // Every method builds each level from its own lobes of the level below.
 
 namespace heddle {
@@ -32,7 +32,7 @@ constexpr int kKeep = 3;
 /// Lobes of the voxels of one level, in Morton order of the voxels.
 struct Level {
     std::vector<std::uint64_t> code;        ///< per voxel
-    std::vector<std::uint32_t> first_child; ///< per voxel and one more: in the level below
+    std::vector<std::uint32_t> first_child; ///< per voxel, and the end: index in the level below
     std::vector<std::uint32_t> first_finest;
 };
 
@@ -52,7 +52,7 @@ std::uint64_t morton(Vec3i voxel) {
     return code;
 }
 
-/// The stored lobe as sums; its weight times occupancy stands in for its directed area.
+/// The stored lobe as sums; its weight times the occupancy replaces its directed area.
 DirectionSums sums_of(const Lobe& lobe, const Coverage& coverage, bool normals) {
     DirectionSums s{.material = lobe.material, .normals = normals};
     s.weight = static_cast<std::int64_t>(lobe.weight) * std::max<int>(coverage.occupancy, 1) << 16;
@@ -103,7 +103,7 @@ Level next_level(const std::vector<std::uint64_t>& code,
     return level;
 }
 
-/// MomentLobes with another distance of two lobes of one material.
+/// MomentLobes with another distance for two lobes of one material.
 template <typename Distance>
 class OtherLobes {
 public:
@@ -159,7 +159,7 @@ Matrix mix(const Matrix& A, float a, const Matrix& B, float b) {
             A.xy * p + B.xy * q, A.xz * p + B.xz * q, A.yz * p + B.yz * q};
 }
 
-/// How far a moment is from a single direction's.
+/// The difference of a moment from that of a single direction.
 float spread(const Matrix& M) {
     return std::sqrt(std::max(0.0f, 1.0f - detail::square_distance(M, {})) + 1e-6f);
 }
@@ -219,8 +219,8 @@ double now() {
         .count();
 }
 
-/// Reduces the children's lobes of every voxel.
-/// @param seconds  receives the time of all threads together, in reducing
+/// Reduces the lobes of the children of every voxel.
+/// @param seconds  receives the time of reducing, summed over all threads
 VoxelLobes
 build(const Level& level, const VoxelLobes& below, const Method& method, double& seconds) {
     VoxelLobes lobes(level.code.size());
@@ -247,7 +247,7 @@ MixtureLobe fitted(const DirectionSums& s) {
     return {fit_sggx(detail::mean_moment(s)), static_cast<double>(s.weight)};
 }
 
-/// All lobes of these voxels; tangents and normals alike, since no input here has both.
+/// All lobes of these voxels; tangents and normals together, since no input has both.
 DirectionTruth add_up(std::span<const std::vector<DirectionSums>> voxels) {
     DirectionTruth truth;
     std::size_t count = 0;
@@ -275,7 +275,7 @@ std::vector<std::size_t> choose(std::size_t count, std::size_t wanted, std::uint
     return all;
 }
 
-/// Errors of each method's lobes at the chosen voxels, averaged.
+/// The errors of each method's lobes at the chosen voxels, averaged.
 std::vector<Sum> measure(const Finest& finest,
                          const Level& level,
                          const std::vector<VoxelLobes>& built,

@@ -1,12 +1,16 @@
 #!/usr/bin/env python3
 """Heddle's flakes beside Mitsuba 3 on the same volume, camera and lights, as a markdown table.
 
-usage: bench/mitsuba_compare.py [--size 256] [--spp 4] [--picture 64] [--picture-spp 256] [--variant scalar_rgb] [--keep DIR]
-The scarf part is voxelized from its Mitsuba 0.6 dictionary, exported by `heddle export` (the dense box, and doubled on each axis) and rendered by
-Mitsuba and by `heddle render --transport flakes`: albedo .8 .8 .9, depth 64, Russian roulette from 5. Speed: --size and --spp; pictures to
-compare: --picture and --picture-spp; the mean ratio is of the pixels that are not sky alone. FLIP of the pictures in sRGB, and FLIP of two of Heddle's own of other seeds: what noise alone makes. Variance x time: Mitsuba's over Heddle's,
-from two pictures each.
-Needs build/release/bin/heddle (or HEDDLE=...), ../shared/data (or HEDDLE_TEST_DATA=...), and Python with mitsuba, numpy, flip-evaluator, OpenEXR.
+usage: bench/mitsuba_compare.py [--size 256] [--spp 4] [--picture 64] [--picture-spp 256]
+                                [--variant scalar_rgb] [--keep DIR]
+The scarf part is voxelized from its Mitsuba 0.6 dictionary, exported by `heddle export` (the dense
+box, and doubled on each axis) and rendered by Mitsuba and by `heddle render --transport flakes`:
+albedo 0.8 0.8 0.9, depth 64, Russian roulette from 5. --size and --spp are for the speed, --picture
+and --picture-spp for the pictures that are compared. The mean ratio is over pixels that are not
+pure sky. FLIP is that of the pictures in sRGB; FLIP of noise compares two of Heddle's pictures with
+different seeds. Variance x time: Mitsuba's over Heddle's, from two pictures each.
+Needs build/release/bin/heddle (or HEDDLE=...), ../shared/data (or HEDDLE_TEST_DATA=...), and Python
+with mitsuba, numpy, flip-evaluator, OpenEXR.
 """
 import argparse
 import json
@@ -24,7 +28,7 @@ DATA = os.environ.get("HEDDLE_TEST_DATA", os.path.join(ROOT, "../shared/data"))
 
 
 def render_mitsuba(scene_xml, variant, runs):
-    """In a process of its own, so that the peak is Mitsuba's. runs: [(size, spp, seed, .npy or '')]"""
+    """Runs in its own process, to get Mitsuba's peak. runs: [(size, spp, seed, .npy or '')]"""
     import mitsuba as mi
     import numpy as np
     mi.set_variant(variant)
@@ -51,7 +55,7 @@ def heddle(*words):
 
 
 def write_toml(folder, vdb):
-    """scene.toml beside scene.xml: its camera and lights."""
+    """Writes scene.toml beside scene.xml, with its camera and lights."""
     xml = ElementTree.parse(f"{folder}/scene.xml").getroot()
     look = xml.find("sensor/transform/lookat").attrib
     angle = xml.find("sensor/float[@name='fov']").attrib["value"]
@@ -87,7 +91,8 @@ def render_heddle(toml, size, spp, out, seed=0):
 
 
 def cost(pictures, seen, rate):
-    """Relative variance of a pixel's luminance x seconds a path, of two pictures of other seeds: what equal noise takes."""
+    """Relative variance of a pixel's luminance x seconds per path, from two pictures with different
+    seeds: the cost of equal noise."""
     import numpy as np
     a, b = (p[seen] @ np.array([0.2126, 0.7152, 0.0722]) for p in pictures)
     return float(((a - b) ** 2).mean() / 2 / ((a + b).mean() / 2) ** 2 / rate)
@@ -129,7 +134,7 @@ def compare(name, folder, vdb, pad, o):
             pictures.append(read_exr(path))
         references = [np.load(f"{folder}/mitsuba{seed}.npy") for seed in (1, 2)]
         reference = references[0]
-        seen = np.ptp(reference.reshape(-1, 3) / reference[0, 0], -1).reshape(reference.shape[:2]) > 1e-3  # not the sky alone
+        seen = np.ptp(reference.reshape(-1, 3) / reference[0, 0], -1).reshape(reference.shape[:2]) > 1e-3  # not pure sky
         ratio = pictures[0][seen].mean() / reference[seen].mean()
         quality = f"{flip(reference, pictures[0]):.4f} | {flip(pictures[1], pictures[0]):.4f} | {ratio:.4f} | {cost(references, seen, theirs['rates'][1]) / cost(pictures, seen, rate):.1f}"
     print(f"| {name}, {' x '.join(map(str, box))} | {theirs['rates'][0]:.0f} | {ours:.0f} | {ours / theirs['rates'][0]:.1f} | "
@@ -139,7 +144,7 @@ def compare(name, folder, vdb, pad, o):
 def main():
     arguments = argparse.ArgumentParser()
     arguments.add_argument("--size", type=int, default=256)
-    arguments.add_argument("--spp", type=int, default=4, help="of Mitsuba's timing; Heddle's takes four times as many")
+    arguments.add_argument("--spp", type=int, default=4, help="samples for timing Mitsuba; Heddle takes four times as many")
     arguments.add_argument("--picture", type=int, default=64)
     arguments.add_argument("--picture-spp", type=int, default=256)
     arguments.add_argument("--variant", default="scalar_rgb")

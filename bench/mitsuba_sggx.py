@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Does Mitsuba 3's `sggx` phase function draw what it evaluates? One JSON line for each S and direction.
+"""Does Mitsuba 3's `sggx` phase function sample its own density? One JSON line per S and direction.
 
 usage: bench/mitsuba_sggx.py    (Python with mitsuba and numpy)
-`integral` of the pdf over the sphere, and the mean of |wo . z| by the pdf and by what `sample` draws: the last two must agree.
+Prints the `integral` of the pdf over the sphere, and the mean of |wo . z| under the pdf and of the
+directions that `sample` draws: the last two must agree.
 """
 import json
 

@@ -1,10 +1,11 @@
-// Prints, as markdown, what a free flight costs by level: voxels walked exactly, as heddle renders, against null collisions with local
-// majorants (delta tracking).
+// Prints, as markdown, the cost of a free flight per level: exact traversal of voxels, as heddle
+// renders, against null collisions with local majorants (delta tracking).
 //
 //     heddle_null_collisions X.vdb [RAYS]
 //
-// Both draw from the same law, the product of independent voxels: the share of rays that pass is printed for each. Majorants are of bricks of
-// 8^3 voxels and along the ray's own direction, the tightest that a brick can have; emptiness is skipped by bricks and by tiles of 64^3.
+// Both sample the same distribution, the product of independent voxels; the fraction of rays that
+// pass is printed for both. Majorants are those of bricks of 8^3 voxels along the ray's own
+// direction, the tightest that a brick can have; bricks and tiles of 64^3 skip empty space.
 
 #include <heddle/base/error.h>
 #include <heddle/geom/affine.h>
@@ -30,7 +31,7 @@ public:
     explicit DeltaTracker(const TraversalLevel& level)
         : level_(level), majorants_(static_cast<std::size_t>(level.info().voxel_count)) {}
 
-    /// @return  whether something stops the ray between t0 and t1
+    /// @return  whether the ray is stopped between t0 and t1
     [[nodiscard]] bool stops(const VoxelRay& voxel_ray, float t0, float t1, StreamRandom& random) {
         const detail::LocalRay ray = detail::localize(voxel_ray, t0);
         const Vec3f rate{std::fabs(ray.direction.x), std::fabs(ray.direction.y),
@@ -84,7 +85,7 @@ private:
         return most;
     }
     const TraversalLevel& level_;
-    std::vector<Vec3f> majorants_; ///< of a brick's voxels along each axis, by its first voxel
+    std::vector<Vec3f> majorants_; ///< of a brick's voxels along each axis, by first voxel
 };
 
 struct LevelRays {
@@ -92,7 +93,7 @@ struct LevelRays {
     std::vector<RayRange> ranges;
 };
 
-/// Rays through the object's box: from a point on a sphere about it to a point in it.
+/// Rays through the object's box: from a point on a sphere around it to a point inside it.
 LevelRays make_rays(const TraversalLevel& level, std::size_t count) {
     const Vec3d h = level.info().lattice.voxel_size;
     const auto corner = [&](Vec3i i) {
@@ -153,7 +154,7 @@ void run(const std::string& path, std::size_t count) {
         const auto track = [&](const VoxelRay& ray, const RayRange& range, StreamRandom& random) {
             return tracker.stops(ray, range.t0, range.t1, random);
         };
-        static_cast<void>(measure(rays, track)); // bricks' majorants are known then
+        static_cast<void>(measure(rays, track)); // computes the majorants of bricks
         const Cost walked = measure(rays, walk), drawn = measure(rays, track);
         std::printf("| %d | %.0f | %.0f | %.2f | %.4f | %.4f |\n", grid->info().level,
                     walked.nanoseconds, drawn.nanoseconds, drawn.nanoseconds / walked.nanoseconds,

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# ogre.obj at 2048 voxels along the longest axis, 1 subvoxel each way: heddle against OpenVDB's mesh to
-# level set, from the .obj to a finished .vdb, taking turns in one run.
-# usage: bash bench/ogre_mesh2ls.sh [RUNS]   (needs build/release/bin/heddle, vdb_tool, xz, GNU time)
+# ogre.obj at 2048 voxels along the longest axis, 1 subvoxel per axis: heddle against OpenVDB's mesh
+# to level set, from the .obj to a finished .vdb, alternating in one run. usage: bash
+# bench/ogre_mesh2ls.sh [RUNS]   (needs build/release/bin/heddle, vdb_tool, xz, GNU time)
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 data=${HEDDLE_TEST_DATA:-$root/../shared/data}
@@ -17,7 +17,7 @@ trap 'rm -rf "$work"' EXIT
 xz -dc "$data/mesh/ogre.obj.xz" >"$work/ogre.obj"
 cd "$work"
 
-# appends "wall CPU MiB" of a command to a file named after it
+# measure FILE COMMAND...: appends "wall CPU MiB" of the command to the file
 measure() {
   local name=$1
   shift
@@ -31,7 +31,7 @@ for _ in $(seq "$runs"); do
   measure heddle "$heddle" voxelize ogre.obj -o ogre.vdb --voxels $voxels --subvoxels 1
   sed -n 's/^\(read\|plan\|voxelize\|write\) .* \([0-9.]*\) s$/\1 \2/p' log.txt >>stages.txt
   grep -E '^voxels ' log.txt >voxels.txt
-  for width in 3 1; do # 3 is vdb_tool's default, 1 the least: one voxel each side of the surface
+  for width in 3 1; do # 3: the default of vdb_tool; 1: the minimum, one voxel on each side
     measure "mesh2ls, width $width" vdb_tool -read ogre.obj -mesh2ls dim=$voxels width=$width \
       -write ls.vdb
   done
@@ -43,7 +43,7 @@ echo "|---|---|---|---|---|---|---|"
 for who in heddle "mesh2ls, width 3" "mesh2ls, width 1"; do
   echo -n "| $who"
   for c in 1 2 3; do echo -n " | $(column "$who.runs" $c)"; done
-  for c in 1 2 3; do # the ratio of each turn's two runs
+  for c in 1 2 3; do # the ratio of the two runs of each pair
     paste -d' ' "$who.runs" heddle.runs | awk -v c=$c '{ print $c / $(c + 3) }' | median |
       awk '{ printf " | %.1f", $1 }'
   done

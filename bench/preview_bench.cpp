@@ -9,8 +9,8 @@
 #include <fstream>
 #include <string>
 
-// heddle_preview_bench helix|MILLION_VOXELS OUT.ppm [COLOR 0-4] [FROM x y z] [FOV]: seconds and
-// bytes, and a picture to look at.
+// heddle_preview_bench helix|MILLION_VOXELS OUT.ppm [COLOR 0-4] [FROM x y z] [FOV]: prints seconds
+// and bytes, and writes a picture.
 
 namespace heddle {
 namespace {

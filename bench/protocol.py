@@ -1,4 +1,4 @@
-"""What protocols A and B share: heddle's command, scene files, cameras, where results go."""
+"""Shared by protocols A and B: heddle's command, scene files, cameras, the path of results."""
 import json
 import math
 import os
@@ -13,7 +13,7 @@ sys.path.insert(0, os.path.join(ROOT, "tools"))
 
 
 def heddle(*words):
-    """Runs it with --json; its result. Ends the script with heddle's own message where it fails."""
+    """Runs heddle with --json and returns its result; if it fails, exits with its message."""
     done = subprocess.run([HEDDLE, *map(str, words), "--quiet", "--json"], capture_output=True, text=True)
     if done.returncode != 0:
         sys.exit(f"{' '.join(map(str, words))}\n{done.stderr.strip()}")
@@ -21,7 +21,7 @@ def heddle(*words):
 
 
 def made(path, *words):
-    """Makes `path` with heddle where it is not there yet; what voxelize, lod or generate said is kept beside it."""
+    """Makes `path` with heddle unless it exists; the JSON result is kept beside it."""
     note = path + ".json"
     if not (os.path.exists(path) and os.path.exists(note)):
         print(f"  {' '.join(map(str, words))}", file=sys.stderr, flush=True)
@@ -33,7 +33,7 @@ def made(path, *words):
 
 
 def plus(*terms):
-    """Sum of (factor, vector) pairs."""
+    """The sum of (factor, vector) pairs."""
     return [sum(f * v[i] for f, v in terms) for i in range(3)]
 
 
@@ -50,7 +50,7 @@ def unit(v):
 
 
 def basis(back, up):
-    """Right, up and back of a camera that looks along -back."""
+    """The axes right, up and back of a camera that looks along -back."""
     back = unit(back)
     right = unit(cross(up, back))
     return right, cross(back, right), back
@@ -79,7 +79,7 @@ def commit():
 
 
 def machine():
-    """Processor and cores, for the head of a result file."""
+    """The processor and its cores, for the head of a result file."""
     name = platform.processor() or platform.machine()
     try:
         with open("/proc/cpuinfo") as file:
@@ -96,7 +96,7 @@ def head(title):
 
 def need_packages():
     try:
-        import flip_evaluator, matplotlib, numpy, OpenEXR, PIL  # noqa: F401, E401 (only whether they are there)
+        import flip_evaluator, matplotlib, numpy, OpenEXR, PIL  # noqa: F401, E401 (only checks that they exist)
     except ImportError as error:
         sys.exit(f"{os.path.basename(sys.argv[0])}: the Python package '{error.name}' is missing; "
                  "pip install -r tools/heddle_compare/requirements.txt")

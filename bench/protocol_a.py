@@ -1,10 +1,14 @@
 #!/usr/bin/env python3
-"""The paper's protocol: camera fixed, a level against the finest at full resolution, by method.   [Fabre26, table 2, fig. 7]
+"""The protocol of the paper: with a fixed camera, each level against the finest at full resolution,
+by method.   [Fabre26, table 2, fig. 7]
 
-usage: bench/protocol_a.py [-o FOLDER] [--scene helmet lamp scarf] [--method naive single moments] [--samples 64] [--lamp-voxels 2048]
-Volumes are kept in FOLDER (default build/protocol_a; the lamp takes 8 GB there) and pictures rendered anew. Prints the form of table 2 with the
-paper's figures beside; FOLDER/result.md, sheet.png, gains.png and errors.csv say more. The row `floor` is the finest level with another seed: what
-noise costs. Lights: sky, sun and three panels. Needs what tools/compare needs; HEDDLE and HEDDLE_TEST_DATA as in the other scripts.
+usage: bench/protocol_a.py [-o FOLDER] [--scene helmet lamp scarf] [--method naive single moments]
+                           [--samples 64] [--lamp-voxels 2048]
+Volumes are kept in FOLDER (default build/protocol_a; the lamp takes 8 GB there); pictures are
+always rendered again. Prints a table like table 2 with the paper's figures beside ours;
+FOLDER/result.md, sheet.png, gains.png and errors.csv have more. The row `floor` is the finest level
+with another seed: the error of noise. Lights: sky, sun and three panels. Needs the packages of
+tools/compare; HEDDLE and HEDDLE_TEST_DATA as in the other scripts.
 """
 import argparse
 import os
@@ -14,18 +18,20 @@ import tarfile
 import protocol
 from protocol import DATA, basis, dot, heddle, made, middle, plus, unit
 
-# FLIP of table 2 by scene and coarseness: naive, SGGX (ours: single), SGGX-H (ours: moments). Its table is ours of brushed metal: the lamp.
+# FLIP of table 2 by scene and coarseness: naive, SGGX (ours: single), SGGX-H (ours: moments). For
+# the brushed metal table of the paper we use the lamp.
 PAPER = {"lamp": ((0.095, 0.094, 0.085), (0.105, 0.103, 0.094), (0.111, 0.118, 0.101)),
          "helmet": ((0.100, 0.103, 0.098), (0.163, 0.154, 0.151), (0.201, 0.181, 0.179)),
          "scarf": ((0.0642, 0.091, 0.0641), (0.103, 0.133, 0.101), (0.281, 0.284, 0.202))}
 LEVELS = {"lamp": (3, 4, 5), "helmet": (3, 4, 5), "scarf": (1, 2, 3)}
-# The scarf's 73 blocks of 63 samples of .02 begin at block (8, 0, 3) of a lattice from (-14.0744, -.1166, -9.8952); 5 x 4 x 5 of them
+# The scarf's 73 blocks of 63 samples of 0.02 begin at block (8, 0, 3) of a lattice with the origin
+# (-14.0744, -0.1166, -9.8952); they span 5 x 4 x 5 blocks
 SCARF_BOUNDS = ([-3.9944, -0.1166, -6.1152], [2.3056, 4.9234, 0.1848])
 VIEWS = {"lamp": ((0.6, 0.35, 1.0), (0, 1, 0)), "helmet": ((0.35, 0.2, 1.0), (0, 1, 0)), "scarf": ((0.3, 1.0, 0.5), (0, 0, -1))}
 
 
 def source(folder, scene):
-    """The input, its bounds and how it is voxelized."""
+    """The input, its bounds and its options of voxelize."""
     if scene == "scarf":
         where = os.path.join(folder, "scarfpart")
         if not os.path.isdir(where):
@@ -41,8 +47,8 @@ def area_text(corner, edge_u, edge_v, color):
 
 
 def scene_text(volume, bounds, back, up):
-    """Framed with a margin of 5 %; the sky and sun that `heddle render X.vdb` takes, the sun from the camera's upper left, and three panels for
-    metal to mirror, out of view."""
+    """A scene framed with a margin of 5 %, with the sky and sun of `heddle render X.vdb`, the sun
+    at the camera's upper left, and three panels out of view that metal can mirror."""
     right, top, back = basis(back, up)
     c = middle(bounds)
     inside = [plus((1, p), (-1, c)) for p in protocol.corners(bounds)]
@@ -92,7 +98,7 @@ def run_scene(folder, scene, a):
 
 
 def table_2(rows, key="flip"):
-    """FLIP by method, the gain over naive, and the paper's."""
+    """FLIP by method, the gain over naive, and the figures of the paper."""
     from heddle_compare.table import gain, groups, markdown
     body = []
     for (scene, _, level), by in groups(rows):

@@ -1,14 +1,20 @@
 #!/usr/bin/env python3
-"""The user's protocol: the camera so far that a voxel of level L covers one pixel, against traced geometry.
+"""The protocol of levels at a distance: the camera is so far away that a voxel of level L covers
+one pixel; compared with traced geometry.
 
-usage: bench/protocol_b.py [-o FOLDER] [--scene knit satin hair pine lamp] [--view facing oblique along] [--level 1 2 3 4 5]
-                           [--transport product...] [--samples 32] [--voxels 512] [--force-level] [--footprints 4|8] [--correlation]
-Scenes: generated stockinette and satin of yarn `cotton`, straight hair, smallpine, the barn lamp; `sweater` (280 s to build, 8 GiB) only when named.
-Materials: cloth and hair a Lambertian round fiber of albedo .9 .5 .2, the others their own. Lights: five directional ones, black behind, so that colour
-ratios are of the object alone. Views: facing, 45 and 80 degrees off. Level by the rays' footprint, or --force-level. Samples are of level 1; each
-level above takes 4 times as many, up to 1024. --keep takes pictures that
-are there already, of the same options: the traced ones, or all, which goes on with a run that was stopped.
-Volumes are kept in FOLDER (default build/protocol_b); result.md, errors.csv, sheet.png, errors.png there. Needs what tools/compare needs.
+usage: bench/protocol_b.py [-o FOLDER] [--scene knit satin hair pine lamp]
+                           [--view facing oblique along] [--level 1 2 3 4 5]
+                           [--transport product...] [--samples 32] [--voxels 512] [--force-level]
+                           [--footprints 4|8] [--correlation]
+Scenes: generated stockinette and satin of yarn `cotton`, straight hair, smallpine, the barn lamp;
+`sweater` (280 s to build, 8 GiB) only if named. Materials: cloth and hair are Lambertian round
+fibers of albedo 0.9 0.5 0.2, the others have their own. Lights: five directional ones and a black
+background, so that colour ratios are those of the object alone. Views: facing, 45 and 80 degrees
+off. The level is chosen by the footprint of rays, or by --force-level. --samples is for level 1;
+each level above has 4 times as many, up to 1024. --keep reuses existing pictures with the same
+options: the traced ones, or all, which continues a run that was stopped. Volumes are kept in FOLDER
+(default build/protocol_b), with result.md, errors.csv, sheet.png and errors.png. Needs the packages
+of tools/compare.
 """
 import argparse
 import json
@@ -20,7 +26,7 @@ import protocol
 from protocol import DATA, basis, dot, heddle, made, middle, plus, unit
 
 PIXEL = math.radians(30.0) / 512  # angle of a pixel: that of 512 px in a view of 30 degrees
-# front: towards the camera that faces it; up: in its picture
+# front: direction towards the camera that faces it; up: in the picture
 CLOTH = {"front": (0, 0, 1), "up": (-0.34, 0.94, 0), "yarn": True}
 SCENES = {
     "knit": {"generate": "knit", **CLOTH},
@@ -46,7 +52,7 @@ def prepare(folder, name, a):
     extra = (["--footprints", a.footprints] if a.footprints else []) + (["--correlation"] if a.correlation else [])
     volume = os.path.join(folder, "_".join([name, str(a.voxels), *(str(x).strip("-") for x in extra)]) + ".vdb")
     voxels = made(volume, "voxelize", path, "--voxels", a.voxels, *model, *extra, "--levels", max(a.level) + 1)
-    reach = 0.2 if "yarn" in scene else 0.0  # curves' bounds are of their centrelines, perhaps
+    reach = 0.2 if "yarn" in scene else 0.0  # curves may have the bounds of centrelines
     lo, hi = heddle("info", path)["bounds"]
     return path, ([x - reach for x in lo], [x + reach for x in hi]), volume, voxels["voxel_size"][0]
 
@@ -67,12 +73,12 @@ def scene_text(name, path, volume, bounds, back, up, distance, size):
 
 
 def camera(name, view, bounds, voxel, level):
-    """Where to look from so that a voxel of the level covers a pixel, and the picture's size."""
+    """The camera for which a voxel of the level covers a pixel, and the size of the picture."""
     scene = SCENES[name]
     tilt = math.radians(VIEWS[view])
     front, up = unit(scene["front"]), unit(scene["up"])
     back = unit(plus((math.cos(tilt), front), (math.sin(tilt), up)))
-    sign = -1.0 if "yarn" in scene and tilt > 0 else 1.0  # cloth lies before the camera, its far end up
+    sign = -1.0 if "yarn" in scene and tilt > 0 else 1.0  # cloth: its far end is up
     camera_up = plus((sign, up)) if sign > 0 or tilt == 0 else front
     right, top, back = basis(back, camera_up)
     distance = voxel * 2 ** level / PIXEL
@@ -86,7 +92,7 @@ def camera(name, view, bounds, voxel, level):
 
 
 def render(folder, label, scene, more, keep):
-    """The picture's path and what `heddle render` says of it."""
+    """The path of the picture and the result of `heddle render`."""
     out = os.path.join(folder, f"{label}.exr")
     if keep and os.path.exists(out) and os.path.exists(out + ".json"):
         with open(out + ".json") as file:
@@ -99,7 +105,7 @@ def render(folder, label, scene, more, keep):
 
 
 def run_scene(folder, name, a):
-    """(Job, the volume's result, the traced result) by picture."""
+    """(Job, result of the volume, result of the traced geometry) by picture."""
     from heddle_compare.jobs import Job
     path, bounds, volume, voxel = prepare(folder, name, a)
     out = []
@@ -121,7 +127,7 @@ def run_scene(folder, name, a):
 
 
 def microseconds(result, picture):
-    """Time of all threads per path that meets the object: what a path costs where 1 - transmittance counts it."""
+    """Microseconds of all threads per path that hits the object, counted by 1 - transmittance."""
     met = float((1.0 - picture.transmittance).sum(dtype=float)) * result["samples"]
     return result["render_seconds"] * os.cpu_count() / max(met, 1.0) * 1e6
 
@@ -151,7 +157,7 @@ def main():
     arguments.add_argument("--force-level", action="store_true")
     arguments.add_argument("--footprints", type=int, choices=(4, 8))
     arguments.add_argument("--correlation", action="store_true")
-    arguments.add_argument("--keep", choices=("none", "traced", "all"), default="none", help="takes pictures that are there already")
+    arguments.add_argument("--keep", choices=("none", "traced", "all"), default="none", help="reuses existing pictures")
     a = arguments.parse_args()
     protocol.need_packages()
     from heddle_compare import run, table
@@ -160,9 +166,9 @@ def main():
     entries = run.compare([job for job, _, _ in results])
     run.write_all(a.output, entries)
     text = protocol.head("Protocol B: a voxel a pixel, against traced geometry")
-    text += ("Means over touched pixels. T: transmittance, test - traced. `noise`: what the pictures' noise alone would make (T: at most). R G B: ratio of colour "
+    text += ("Means over touched pixels. T: transmittance, test - traced. `noise`: the error of the pictures' noise alone (T: at most). R G B: ratio of colour "
              "sums; per alpha: of luminance by covered area. Times: of all threads, per path that meets the object, other work on the machine. Goal: FLIP "
-             "and T mean abs .02 and .01.\n\n")
+             "and T mean abs 0.02 and 0.01.\n\n")
     text += result_table(entries, results)
     with open(os.path.join(a.output, "result.md"), "w") as file:
         file.write(text)

@@ -1,4 +1,4 @@
-// raster_exact: the rasterizing voxelizer against the sampling one on the same slices, as a table.
+// raster_exact: compares the rasterizing with the sampling voxelizer on equal slices.
 #include <heddle/geom/generate.h>
 #include <heddle/raster/test_difference.h>
 #include <heddle/raster/voxelize_slices.h>
@@ -37,7 +37,7 @@ void print_table() {
     std::puts("| slices | voxels | density | coverage | volume | median angle | 9 of 10 below |\n"
               "|---|---|---|---|---|---|---|");
     for (int k = 0; k < 20; ++k) {
-        const double turn = 90.0 * k / 19.0; // from along x to along y, and every other one up
+        const double turn = 90.0 * k / 19.0; // from x to y, and every other one upwards
         const double up = k % 2 == 0 ? 0.0 : turn;
         const double a = turn * 0.017453292519943295;
         const double b = up * 0.017453292519943295;

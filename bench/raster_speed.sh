@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# raster_speed.sh HEDDLE: both voxelizers on knitted swatches of slices, as a table. Seconds are of the CPU.
+# raster_speed.sh HEDDLE: a table of both voxelizers on knitted swatches of slices. CPU seconds.
 set -euo pipefail
 heddle=$(realpath "$1")
 work=$(mktemp -d)

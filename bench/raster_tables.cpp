@@ -1,4 +1,4 @@
-// raster_tables sort|slices|images: figure 11, table 1 and the size of slice images of [LopezMoreno17], as tables.
+// raster_tables sort|slices|images: [LopezMoreno17]: figure 11, table 1, sizes of slice images.
 #include <heddle/base/random.h>
 #include <heddle/geom/generate.h>
 #include <heddle/io/yarn/yarn_file.h>
@@ -35,7 +35,7 @@ double seconds_of(const Run& run) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Median seconds of std::sort over `values`, which every run gets anew.
+/// The median seconds of std::sort over a fresh copy of `values`.
 template <typename T>
 double std_seconds(const std::vector<T>& values) {
     std::array<double, kRuns> seconds{};
@@ -46,13 +46,13 @@ double std_seconds(const std::vector<T>& values) {
     return median(seconds);
 }
 
-/// Median seconds of the driver's sort, until its last pass is done.
+/// The median seconds of the driver's sort, until its last pass is done.
 double radix_seconds(const std::vector<std::uint32_t>& keys) {
     const viewer::RadixSort sort(static_cast<std::uint32_t>(keys.size()));
     std::array<std::uint32_t, 1> first{};
     const auto wait = [&] { sort.keys().read(std::as_writable_bytes(std::span(first))); };
     std::array<double, kRuns> seconds{};
-    for (int run = -1; run < kRuns; ++run) { // the first compiles
+    for (int run = -1; run < kRuns; ++run) { // the first one includes compilation
         sort.keys().write(std::as_bytes(std::span(keys)));
         sort.values().write(std::as_bytes(std::span(keys)));
         wait();
@@ -112,7 +112,7 @@ void print_slices() {
     const YarnType yarn = slice_of_cotton(256);
     raster::SliceVoxelizer voxelizer({});
     Progress silent;
-    // the first compiles, and draws the sections of eight yarns
+    // the first one includes compilation, and drawing the sections of eight yarns
     for (const auto& [nx, ny] : {std::pair{1, 8}, {2, 8}, {4, 8}, {8, 8}, {16, 16}}) {
         const Geometry cloth = knit(nx, ny, yarn);
         raster::RasterCounts counts;
@@ -127,7 +127,7 @@ void print_slices() {
     }
 }
 
-/// A knit of slices of `size` texels a side, drawn.
+/// A knit of slices of `size` texels per side, rasterized.
 struct Drawn {
     std::unique_ptr<VoxelLevel> voxels;
     double image_seconds = 0.0;

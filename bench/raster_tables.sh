@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# raster_tables.sh BUILD sort|slices|images|paths|frames|blocks ...: tables of [LopezMoreno17] and of the rasterizing
-# voxelizer, from a build with -DHEDDLE_BENCH=ON.
-# Files go to TMPDIR: a tmpfs there leaves the disk out of the times.
+# raster_tables.sh BUILD sort|slices|images|paths|frames|blocks ...: tables of [LopezMoreno17] and
+# of the rasterizing voxelizer, from a build with -DHEDDLE_BENCH=ON. Files are written to TMPDIR:
+# with a tmpfs there the times exclude the disk.
 set -euo pipefail
 heddle=$(realpath "$1/bin/heddle")
 tables=$(realpath "$1/bench/heddle_raster_tables")
@@ -9,10 +9,10 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
 
-# json FILE KEY: a number or text of a report
+# json FILE KEY: prints a number or text of a report
 json() { sed -n "s/^  \"$2\": \"\{0,1\}\([^\",]*\)\"\{0,1\},\{0,1\}$/\1/p" "$1"; }
 mib() { awk -v b="$1" 'BEGIN { printf "%.1f", b / 1048576 }'; }
-# cpu ARGUMENT...: seconds of the CPU of the middle of three runs
+# cpu ARGUMENT...: the CPU seconds of the median of three runs
 cpu() {
     local TIMEFORMAT=%U
     for _ in 1 2 3; do { time "$heddle" "$@" --quiet >/dev/null; } 2>&1; done | sort -n | sed -n 2p
@@ -52,7 +52,7 @@ frames() {
     done
 }
 
-# render FILE: seconds of the CPU and MiB of the voxels in a path tracer
+# render FILE: the CPU seconds of a path tracer, and its MiB of voxels
 render() {
     local TIMEFORMAT=%U
     { time "$heddle" render "$1" -o picture.exr --size 256x256 --samples 32 --json >picture.txt 2>/dev/null; } 2>picture.time

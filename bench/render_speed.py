@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
-"""Speed of `heddle render`: by level, against traced geometry, by threads, and how soon the first picture is there; markdown tables.
+"""Speed of `heddle render`: by level, against traced geometry, by threads, and the time to the
+first picture; as markdown tables.
 
 usage: bench/render_speed.py [-o FOLDER] [--part levels traced threads first] [--paths 1000000]
-levels: a generated knit seen from the front, filling the picture, a voxel of the level a pixel: time of all threads per path that meets it.
-traced: the pattern of the flame ribbing with 150 fibers a yarn at levels 3 and 4, a voxel a pixel, beside its geometry through Embree: variance x
-time, memory, and seconds until --noise percent. threads: the same with 1 and 2. first: wall time until the first picture of a file of 50 M voxels exists.
-Volumes are kept in FOLDER (default build/render_speed). HEDDLE and HEDDLE_TEST_DATA as in the other scripts. Nothing else should run.
+levels: a generated knit from the front that fills the picture, one voxel of the level per pixel:
+time of all threads per path that hits it. traced: the pattern of the flame ribbing with 150 fibers
+per yarn at levels 3 and 4, one voxel per pixel, beside its geometry through Embree: variance x
+time, memory, and seconds until --noise percent. threads: the same with 1 and 2. first: wall time
+until the first picture of a file of 50 M voxels exists. Volumes are kept in FOLDER (default
+build/render_speed). HEDDLE and HEDDLE_TEST_DATA as in the other scripts. Nothing else should run.
 """
 import argparse
 import math
@@ -22,7 +25,7 @@ FIBER = "[material.matte]\nmodel = \"fiber\"\nalbedo = [0.9, 0.5, 0.2]\n"
 
 
 def facing(bounds, height):
-    """An orthographic camera before the cloth, which lies in x and y."""
+    """An orthographic camera in front of the cloth, which lies in the xy plane."""
     c = middle(bounds)
     eye = plus((1, c), (2 * (bounds[1][0] - bounds[0][0]), (0, 0, 1)))
     return (f"[camera]\nkind = \"orthographic\"\neye = {eye}\ntarget = {c}\nup = [0.0, 1.0, 0.0]\nview_height = {height!r}\n")
@@ -36,7 +39,7 @@ def write_scene(folder, name, text):
 
 
 def met(picture):
-    """Share of the camera's paths that something stops."""
+    """The fraction of the camera's paths that hit the object."""
     from heddle_compare.picture import read_picture
     return float((1.0 - read_picture(picture).transmittance).mean(dtype=float))
 

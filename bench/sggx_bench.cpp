@@ -1,4 +1,4 @@
-// Nanoseconds per lobe of fit, pack and their neighbours:
+// Nanoseconds per lobe of fit, pack and related functions:
 //   build/release/bench/heddle_sggx_bench
 
 #include <heddle/sggx/moments.h>
@@ -14,9 +14,9 @@ namespace {
 
 using namespace heddle;
 
-constexpr std::size_t kLobes = 4096; // 96 KiB in, stays in the second-level cache
+constexpr std::size_t kLobes = 4096; // 96 KiB of input: fits the second-level cache
 
-/// Moments of all widths, a quarter of them needles, as a knit gives.
+/// Moments of all widths, a quarter of them needles, as in a knit.
 std::vector<SymmetricMatrix> random_moments() {
     CounterRandom random{1, 1};
     std::vector<SymmetricMatrix> moments;

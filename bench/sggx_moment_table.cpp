@@ -29,7 +29,7 @@ double mean_sigma(Vec3d a) {
     return (a.x * (P.y + P.z) + a.y * (P.x + P.z) + a.z * (P.x + P.y)) / 6.0;
 }
 
-/// Sigmas whose second moment is m.
+/// The sigmas whose second moment is m.
 Vec3d invert(Vec3d m) {
     m = m * (1.0 / (m.x + m.y + m.z));
     std::array<double, 2> t{0.5 * std::log(m.y / m.x), 0.5 * std::log(m.z / m.x)};
@@ -55,7 +55,7 @@ Vec3d invert(Vec3d m) {
     return s * (0.5 / mean_sigma(s * s));
 }
 
-/// The table's entry: sigma_x, sigma_y / u^2, sigma_z / (u^2 v).
+/// An entry of the table: sigma_x, sigma_y / u^2, sigma_z / (u^2 v).
 Vec3d node(double u, double v) {
     const double y = u * u * u * u;
     const Vec3d s = invert({1.0, y, y * v * v});

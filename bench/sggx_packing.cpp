@@ -1,4 +1,4 @@
-// Prints, as markdown, the error that packing an SGGX into 6 bytes adds, by width of the lobe.
+// Prints, as markdown, the error that packing an SGGX into 6 bytes adds, by the width of the lobe.
 
 #include <heddle/sggx/moments.h>
 #include <heddle/sggx/pack.h>
@@ -19,14 +19,14 @@ struct Row {
     double before_least = 0.0, before_middle = 0.0; // sigma
     double after_least = 0.0, after_middle = 0.0;   // decoded
     double area = 0.0, worst_area = 0.0;            // error of sigma(w)
-    int indefinite = 0; // lobes that the paper's bytes decode with an eigenvalue <= 0
+    int indefinite = 0; // lobes that the paper's bytes decode to an eigenvalue <= 0
 };
 
 std::uint8_t round_byte(double x) {
     return static_cast<std::uint8_t>(std::floor(std::min(255.0, std::max(0.0, x)) + 0.5));
 }
 
-/// True if bytes rounded to nearest and even in r, as the paper has them, decode positive definite.
+/// True if the paper's bytes, rounded to nearest and linear in r, decode to a positive definite S.
 bool is_plainly_definite(const SggxMatrix& S) {
     const Vec3d diagonal = to_double({S.xx, S.yy, S.zz});
     const Vec3d s{std::sqrt(diagonal.x), std::sqrt(diagonal.y), std::sqrt(diagonal.z)};

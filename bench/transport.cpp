@@ -1,9 +1,10 @@
-// Prints, as markdown, how far each transport's transmittance is from traced geometry's, over views and levels.
+// Prints, as markdown, the error of each transport's transmittance against traced geometry, over
+// views and levels.
 //
 //     heddle_transport SCENE.toml [LEVELS]
 //
-// The scene's objects have a volume and geometry. A pixel is as wide as the level's voxel and holds 64 rays; it counts where either
-// picture is touched.
+// The objects of the scene have a volume and geometry. A pixel is as wide as the level's voxels and
+// has 64 rays; it counts if the object is in either picture.
 
 #include <heddle/base/error.h>
 #include <heddle/base/parallel.h>
@@ -32,7 +33,7 @@ std::vector<View> make_views() {
     std::vector<View> views{
         {"x", {{1, 0, 0}}}, {"y", {{0, 1, 0}}}, {"z", {{0, 0, 1}}}, {"oblique", {}}};
     StreamRandom random{5};
-    for (int i = 0; i < 4; ++i) { // |w_z| from .25 to 1
+    for (int i = 0; i < 4; ++i) { // |w_z| from 0.25 to 1
         const double z = 0.25 + 0.75 * static_cast<double>(random.uniform());
         const double phi = 2.0 * std::numbers::pi * static_cast<double>(random.uniform());
         const double r = std::sqrt(1.0 - z * z);

@@ -13,9 +13,8 @@
 #include <filesystem>
 #include <string>
 
-// heddle_vdb_bench MILLION_VOXELS [OUT.vdb]: seconds and bytes of writing and reading back
-// voxels like those of a cloth: a sheet of leaves, 35 % of each active, fiber directions that
-// wander.
+// heddle_vdb_bench MILLION_VOXELS [OUT.vdb]: seconds and bytes of writing and reading voxels like
+// those of cloth: a sheet of leaves, 35 % of each active, with fiber directions that vary slowly.
 
 namespace heddle {
 namespace {

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# view_answer.sh HEDDLE [OUT]: how long the window of `heddle view` takes from an input to the picture that shows it, by
-# slices, under Xvfb: 40 steps of orbit, zoom, light, radius and twist each. A table in Markdown. OUT keeps screenshots.
+# view_answer.sh HEDDLE [OUT]: a markdown table of the time from an input to the picture that shows
+# it, in the window of `heddle view` with slices, under Xvfb: 40 steps each of orbit, zoom, light,
+# radius and twist. Screenshots are saved in OUT.
 set -euo pipefail
 heddle=$(realpath "$1")
 out=${2:+$(realpath "$2")}

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# view_record.sh HEDDLE FILE YARN OUT: the window of `heddle view` on a file under Xvfb, driven by mouse and keys: open, orbit,
-# radius and twist, nearer, voxelize what is seen, the block under the mouse, save. A screenshot of each step in OUT.
+# view_record.sh HEDDLE FILE YARN OUT: drives the window of `heddle view` on a file under Xvfb by
+# mouse and keys: open, orbit, radius and twist, zoom, voxelize the visible part, pick the block
+# under the mouse, save. Saves a screenshot of each step in OUT.
 set -euo pipefail
 heddle=$(realpath "$1")
 file=$(realpath "$2")
@@ -14,7 +15,7 @@ xvfb=$!
 until [ -s display.txt ]; do sleep 0.1; done
 export DISPLAY=:$(cat display.txt)
 step=0
-# shot NAME SECONDS: waits until the picture is fine, and keeps the screen
+# shot NAME SECONDS: waits until the picture is refined, and saves the screen
 shot() {
     sleep "$2"
     step=$((step + 1))

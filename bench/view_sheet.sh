@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# view_sheet.sh HEDDLE OUT [SWEATER.bcc]: pictures of `heddle view` as the figures 10 and 12 to 15 of [LopezMoreno17] have them, of
-# a sweater where one is given and of generated knits. The commands are left in OUT/commands.txt.
+# view_sheet.sh HEDDLE OUT [SWEATER.bcc]: pictures of `heddle view` like figures 10 and 12 to 15 of
+# [LopezMoreno17], of a sweater if one is given and of generated knits. The commands are written to
+# OUT/commands.txt.
 set -euo pipefail
 heddle=$(realpath "$1")
 mkdir -p "$2"
@@ -11,7 +12,7 @@ run() {
     echo "heddle $*" >>commands.txt
     "$heddle" "$@" --quiet
 }
-# picture NAME ARGUMENT...: one picture of view as NAME.png
+# picture NAME ARGUMENT...: one picture of the view as NAME.png
 picture() {
     local name=$1
     shift
@@ -51,7 +52,7 @@ picture fig14_slices $knit --volume knit.vdb --color direction --zoom 3
 picture fig14_block $knit --volume knit.vdb --color grid --blocks --white-block 12,8,0 --zoom 12
 picture fig14_voxels $knit --volume knit.vdb --show voxels --blocks --white-block 12,8,0 --zoom 12
 
-# fig. 15: slices, voxels, and the path traced volume in the same view
+# fig. 15: slices, voxels, and the path-traced volume in the same view
 picture fig15_slices $knit --volume knit.vdb --zoom 5 --scene
 picture fig15_voxels $knit --volume knit.vdb --show voxels --zoom 5
 run render fig15_slices/knit_view.toml --samples 32 -o fig15_traced.png

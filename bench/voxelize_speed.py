@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Speed and memory of `heddle voxelize` on a knitted sweater, as a markdown table.
 
-usage: bench/voxelize_speed.py [--quick] [--yarn silk] [--runs 1]
-Nine runs (512, 1024, 2048 voxels x 50, 150, 450 fibers a yarn) on all cores, one on one thread, one with
-flyaways, one with --memory 1500M. Fits seconds = a steps + b touched subvoxels + c voxels to the nine.
-What evaluating the fibers costs by itself: heddle_expand_bench (HEDDLE_BENCH=ON).
+usage: bench/voxelize_speed.py [--quick] [--yarn silk]
+Nine runs (512, 1024, 2048 voxels x 50, 150, 450 fibers per yarn) on all cores, one on one thread,
+one with flyaways, one with --memory 1500M. Fits seconds = a steps + b touched subvoxels + c voxels
+to the nine. heddle_expand_bench (HEDDLE_BENCH=ON) measures the evaluation of fibers alone.
 Needs build/release/bin/heddle (or HEDDLE=...) and ../shared/data (or HEDDLE_TEST_DATA=...).
 """
 import argparse
@@ -46,7 +46,7 @@ def solve(rows, values):
 
 
 def fit(runs):
-    """Relative least squares with no negative cost: the best of all subsets of the three terms."""
+    """Relative least squares without negative costs: the best of all subsets of the three terms."""
     best = None
     for keep in itertools.chain.from_iterable(itertools.combinations(range(3), k) for k in (3, 2, 1)):
         rows = [[r["terms"][i] / r["total_seconds"] for i in keep] for r in runs]

@@ -1,4 +1,4 @@
-# cmake --install: libraries, headers, the command, and the files that find_package(heddle) and pkg-config read.
+# cmake --install: libraries, headers, the command, and files for find_package and pkg-config.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(_dir ${CMAKE_INSTALL_LIBDIR}/cmake/heddle)

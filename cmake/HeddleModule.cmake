@@ -1,13 +1,15 @@
-# heddle_add_module(<room> [INTERFACE] [NO_INSTALL] PUBLIC_HEADERS ... [SOURCES ...] [CUDA_SOURCES ...] [TESTS ...] [DEPS ...] [PRIVATE_DEPS ...] [TEST_DEPS ...])
+# heddle_add_module(<room> [INTERFACE] [NO_INSTALL] PUBLIC_HEADERS ... [SOURCES ...]
+#                   [CUDA_SOURCES ...] [TESTS ...] [DEPS ...] [PRIVATE_DEPS ...] [TEST_DEPS ...])
 # One call per folder: target heddle_<room>, alias heddle::<room>, test binary heddle_<room>_test.
-# cmake/HeddleLibrary.cmake and HeddleInstall.cmake make and install heddle::heddle of what the calls record in global
-# properties: the rooms that are installed, their public headers and the foreign libraries that they link.
+# cmake/HeddleLibrary.cmake and HeddleInstall.cmake make and install heddle::heddle from global
+# properties that the calls record: the installed rooms, their public headers and the foreign
+# libraries that they link.
 # the core: a C++20 compiler, and oneTBB or std::thread
 set(HEDDLE_CORE_ROOMS base executor geom sggx voxel leaf_table flake yarn surface voxelize/block voxelize/chord voxelize/fiber
   voxelize/triangle voxelize lod device/level device)
 add_library(heddle_flags INTERFACE)
 set(_w -Wall -Wextra -Wshadow -Wconversion -Wdouble-promotion -Wundef -Wnon-virtual-dtor -Woverloaded-virtual -ffp-contract=off
-  -fno-semantic-interposition) # with -fPIC g++ would otherwise not inline a function that another file can call
+  -fno-semantic-interposition) # lets g++ -fPIC inline exported functions
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   list(APPEND _w -Wno-restrict) # false at -O3 for "text" + std::string (GCC bug 105651)
 endif()
@@ -36,7 +38,7 @@ function(heddle_add_module path)
   target_sources(heddle_${room} ${scope} FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/src FILES ${A_PUBLIC_HEADERS})
   target_compile_definitions(heddle_${room} ${scope} HEDDLE_HAS_CUDA=$<BOOL:${HEDDLE_CUDA}>)
   target_compile_features(heddle_${room} ${scope} cxx_std_20)
-  # our warnings are ours: a project that links an installed heddle does not get them
+  # our warnings are for us: a project that links an installed heddle does not get them
   target_link_libraries(heddle_${room} ${scope} $<BUILD_INTERFACE:heddle_flags> ${A_DEPS})
   if(NOT A_INTERFACE)
     target_link_libraries(heddle_${room} PRIVATE ${A_PRIVATE_DEPS})

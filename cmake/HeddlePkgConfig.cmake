@@ -1,4 +1,4 @@
-# heddle.pc for pkg-config. The static rooms stand in it from the topmost down, with the foreign libraries behind them.
+# heddle.pc for pkg-config: the static rooms from the topmost down, then the foreign libraries.
 set(HEDDLE_PC_LIBS -lheddle)
 if(NOT HEDDLE_SHARED)
   set(HEDDLE_PC_LIBS "")
@@ -15,7 +15,7 @@ if(NOT HEDDLE_SHARED)
   set(_flags_of_OpenEXR::OpenEXR -lOpenEXR -lIex -lImath)
   set(_flags_of_TinyGLTF::TinyGLTF -ltinygltf)
   set(_flags_of_tinyobjloader::tinyobjloader -ltinyobjloader)
-  set(_flags_of_nlohmann_json::nlohmann_json "") # headers alone
+  set(_flags_of_nlohmann_json::nlohmann_json "") # headers only
   set(_flags_of_embree -lembree3)
   set(_flags_of_${HEDDLE_EPOXY_LIBRARY} -lepoxy)
   set(_flags_of_${CMAKE_DL_LIBS} -l${CMAKE_DL_LIBS})
@@ -31,6 +31,6 @@ set(HEDDLE_PC_CUDA 0)
 if(HEDDLE_CUDA)
   set(HEDDLE_PC_CUDA 1)
 endif()
-file(RELATIVE_PATH HEDDLE_PC_PREFIX /p/${CMAKE_INSTALL_LIBDIR}/pkgconfig /p) # a prefix that was moved still works
+file(RELATIVE_PATH HEDDLE_PC_PREFIX /p/${CMAKE_INSTALL_LIBDIR}/pkgconfig /p) # a moved install works
 configure_file(${CMAKE_CURRENT_LIST_DIR}/heddle.pc.in ${CMAKE_CURRENT_BINARY_DIR}/heddle.pc @ONLY)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/heddle.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

@@ -1,5 +1,5 @@
 # cmake -DOUT=<.cpp> -DPRESETS=<.toml,.toml...> -P embed_presets.cmake
-# Writes a table of the files' names and texts as C++, ascending by name.
+# Writes a table of the names and texts of the files as C++, ascending by name.
 string(REPLACE "," ";" PRESETS "${PRESETS}")
 set(code "// Written by cmake/embed_presets.cmake from io/yarn/presets.\n")
 string(APPEND code "#include <heddle/io/yarn/presets.h>\n\nnamespace heddle {\n\n")

@@ -1,5 +1,5 @@
-"""The picture of the rooms is what cmake/layers.txt gives, and the files that docs/architecture.md walks through are there,
-each named once."""
+"""The picture of the rooms is the one that cmake/layers.txt gives, and the files in the walks of
+docs/architecture.md exist, each named once."""
 import pathlib
 import re
 import subprocess
@@ -13,7 +13,7 @@ for walk in walks:
     files = re.findall(r"^\d+\. `([^`]+)`", walk, flags=re.MULTILINE)
     for name in files:
         if not (root / "src/heddle" / name).exists() or files.count(name) != 1:
-            print(f"docs/architecture.md, {title}: `{name}` is not there, or named twice")
+            print(f"docs/architecture.md, {title}: `{name}` does not exist, or is named twice")
             failed = True
     if not 10 <= len(files) <= 25:
         print(f"docs/architecture.md, {title}: {len(files)} files, expected 10 to 25")

@@ -1,5 +1,5 @@
 # cmake -DSOURCE=<repo> -DWORK=<folder> -P layers_test.cmake
-# Each rule of cmake/check_layers.cmake refuses a tree of two rooms in which one line breaks it.
+# Each rule of cmake/check_layers.cmake rejects a tree of two rooms in which one line breaks it.
 cmake_policy(VERSION 3.25)
 set(src ${WORK}/src/heddle)
 function(write_good_tree)
@@ -21,7 +21,7 @@ function(check_tree status_out words_out)
   set(${words_out} "${words}" PARENT_SCOPE)
 endfunction()
 
-# Adds `line` to a file of the good tree and expects that the check fails with `message`.
+# Adds `line` to a file of the valid tree and expects the check to fail with `message`.
 function(expect_refusal message file line)
   write_good_tree()
   file(APPEND ${WORK}/${file} "${line}\n")

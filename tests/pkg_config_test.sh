@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# pkg_config_test.sh PREFIX SOURCE CXX [FLAG...]: builds and runs a program with the flags of pkg-config alone.
+# pkg_config_test.sh PREFIX SOURCE CXX [FLAG...]: builds and runs a program by pkg-config.
 set -euo pipefail
 prefix=$1 source=$2 cxx=$3
 shift 3

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# readme_test.sh HEDDLE REPO: runs every marked command of README.md and compares the option tables of docs/options.md with the program's.
+# readme_test.sh HEDDLE REPO: runs every marked command of README.md and compares the option tables
+# of docs/options.md with those of the program.
 set -euo pipefail
 PATH=$(dirname "$1"):$PATH
 readme=$2/README.md

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# window_test.sh HEDDLE TESTS: the window of `heddle view` under Xvfb: orbit, edit, voxelize, save, close, by mouse and keys.
-# 77 where there is no Xvfb or xdotool. With RECORD=DIR each step leaves a screenshot there (ImageMagick's import).
+# window_test.sh HEDDLE TESTS: drives the window of `heddle view` under Xvfb by mouse and keys:
+# orbit, edit, voxelize, save, close. Exits with 77 without Xvfb or xdotool. With RECORD=DIR it
+# saves a screenshot of each step there (ImageMagick's import).
 set -uo pipefail
 heddle=$1
 tests=$2
@@ -17,7 +18,7 @@ wrong() {
     echo "FAILED: $*" >&2
     failures=$((failures + 1))
 }
-# until_true SECONDS COMMAND...: tries it ten times a second
+# until_true SECONDS COMMAND...: tries the command ten times per second
 until_true() {
     local left=$(($1 * 10))
     shift
@@ -31,11 +32,11 @@ record() {
     step=$((step + 1))
     [ -z "${RECORD:-}" ] || import -window root "$RECORD/$step-$1.png"
 }
-# a file that is there for the first time, or anew
+# saved FILE: the file is new, or has changed
 saved() {
     [ -s "$1" ] && { [ ! -e "$1.before" ] || ! cmp -s "$1" "$1.before"; }
 }
-# save KEY FILE: presses the key until the file is saved anew
+# save KEY FILE: presses the key until the file is written again
 save() {
     press_for_file() {
         xdotool key "$1"
@@ -46,7 +47,7 @@ save() {
     cp "$2" "$2.before"
 }
 
-# libraries of X and EGL keep memory after they are unloaded, which is all that is left to tell of it
+# libraries of X and EGL keep memory after they are unloaded; only that remains to be reported
 export ASAN_OPTIONS="${ASAN_OPTIONS:-}:detect_leaks=0"
 
 Xvfb -displayfd 3 -screen 0 700x500x24 3>display.txt >/dev/null 2>&1 &

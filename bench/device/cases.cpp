@@ -8,7 +8,7 @@
 namespace heddle::check {
 namespace {
 
-/// Plies of fibers, about as Zhao et al. 2016 fit cotton.
+/// Plies of fibers, about as in the fit of cotton by Zhao et al. 2016.
 YarnType procedural(int fibers, bool flyaways) {
     YarnType y;
     y.model = YarnModel::Procedural;

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-// What the pipeline of the device is compared on: made by our own generators, so that a bare machine
-// needs no data.
+// Inputs on which the device pipeline is compared: made by our own generators, so that a bare
+// machine needs no data.
 
 namespace heddle::check {
 
@@ -19,18 +19,18 @@ struct Case {
     std::int64_t batches = 1;
 };
 
-/// Every generator, three yarn models, flyaways, voxels that are no cubes, a region, 1, 8 and 64 batches.
+/// Every generator, three yarn models, flyaways, non-cubic voxels, a region, 1, 8 and 64 batches.
 [[nodiscard]] std::vector<Case> parity_cases();
 
 /// The smallest of them, for compute-sanitizer.
 [[nodiscard]] std::vector<Case> small_cases();
 
-/// Cloth of about so many nodes of fibers.                                [Fabre26, table 3]
-/// @param nodes    of yarn x fibers of a yarn
-/// @param fibers   of a yarn
+/// Cloth with about this number of fiber nodes.                            [Fabre26, table 3]
+/// @param nodes    nodes of all yarns x fibers per yarn
+/// @param fibers   fibers per yarn
 [[nodiscard]] Geometry cloth(const std::string& shape, double nodes, int fibers);
 
-/// A round body with waves, of about so many triangles, without maps.
+/// A round body with waves and about this number of triangles, without maps.
 [[nodiscard]] Geometry body(int triangles);
 
 } // namespace heddle::check

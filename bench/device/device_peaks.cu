@@ -42,7 +42,7 @@ double peak_gigaflops() {
         cudaDeviceGetAttribute(&kilohertz, cudaDevAttrClockRate, 0) != cudaSuccess) {
         return 0.0;
     }
-    constexpr double kLanes = 128.0; // of a multiprocessor, of 8.0 and later; 7.5 has half
+    constexpr double kLanes = 128.0; // per multiprocessor from 8.0 on; 7.5 has half
     return kLanes * multiprocessors * kilohertz * 1e-6;
 }
 

@@ -2,10 +2,10 @@
 
 namespace heddle::check {
 
-/// Bytes read and written a second by a copy within the device's memory, GB/s; 0 without a device.
+/// Bytes read and written per second by a copy in the device's memory, GB/s; 0 without a device.
 [[nodiscard]] double copy_bandwidth();
 
-/// Single-precision operations a second of all lanes, without contraction, 1e9 / s; 0 without a device.
+/// Single-precision operations per second of all lanes, uncontracted, 1e9 / s; 0 without a device.
 [[nodiscard]] double peak_gigaflops();
 
 } // namespace heddle::check

@@ -1,5 +1,6 @@
-// gl_speed [MILLIONS OF SLICES ...]: OpenGL on this machine's driver, as a table: slices placed, sorted, seen and voxelized.
-// [LopezMoreno17, table 1]: 17.6 and 35.2 M slices on a TITAN Black: set-up 8.67 and 17.32 s, a pass .15 and .4 s.
+// gl_speed [MILLIONS OF SLICES ...]: a table of OpenGL with this machine's driver: slices placed,
+// sorted, drawn and voxelized. [LopezMoreno17, table 1]: 17.6 and 35.2 M slices on a TITAN Black
+// take 8.67 and 17.32 s of set-up, 0.15 and 0.4 s per pass.
 #include <heddle/geom/generate.h>
 #include <heddle/raster/test_difference.h>
 #include <heddle/raster/voxelize_slices.h>
@@ -15,8 +16,8 @@
 namespace heddle {
 namespace {
 
-constexpr double kSlicesOfLoop = 72.0; ///< of the yarn below, about
-constexpr std::int32_t kSize = 1024;   ///< of pictures, pixels
+constexpr double kSlicesOfLoop = 72.0; ///< of the yarn below, approximately
+constexpr std::int32_t kSize = 1024;   ///< size of pictures, pixels
 constexpr int kFrames = 5;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -31,7 +32,7 @@ Geometry knit(double millions) {
     return cloth;
 }
 
-/// Mean milliseconds of pictures from all around; the first, with its shadow map, is not among them.
+/// Mean milliseconds of pictures from all around, without the first one, which has its shadow map.
 struct Seen {
     std::int64_t slices = 0;
     bool split = false;

@@ -8,7 +8,7 @@
 
 namespace heddle::check {
 
-/// A hash over all that the levels store.
+/// A hash of everything that the levels store.
 [[nodiscard]] inline std::uint64_t bits_of(const VoxelLevels& levels) {
     std::uint64_t hash = 0xcbf29ce484222325u;
     const auto add = [&](const auto& values) {
@@ -22,7 +22,7 @@ namespace heddle::check {
         VoxelBlock scratch;
         for (std::size_t b = 0; b < level->block_count(); ++b) {
             const VoxelBlock& block = level->block(b, scratch);
-            for (const VoxelLeaf& leaf : block.leaves) { // field by field: it has padding
+            for (const VoxelLeaf& leaf : block.leaves) { // field by field: the struct has padding
                 add(leaf.active);
                 add(std::array{leaf.origin.x, leaf.origin.y, leaf.origin.z});
                 add(std::array{leaf.first_voxel, leaf.first_lobe});

@@ -1,6 +1,6 @@
-// Voxels and levels by the CPU, by the pipeline of the device on the host's threads, and on the device
-// where there is one: the same bits?   heddle_device_parity [--small]
-// Exits with 1 where they differ.
+// Compares the bits of voxels and levels of the CPU, of the device pipeline on the host's threads
+// and, if there is one, on the device.   heddle_device_parity [--small] Exits with 1 if they
+// differ.
 
 #include "cases.h"
 #include "level_bits.h"

@@ -1,6 +1,6 @@
-// The pipeline of the device on cloth as of [Fabre26, table 3], in seconds: heddle_device_speed [ROWS]
-// ROWS: how many of the nine, the fastest first; default all. Without a device: one small row by the
-// host executor, to see that the program runs.
+// Seconds of the device pipeline on cloth as in [Fabre26, table 3]: heddle_device_speed [ROWS]
+// ROWS: how many of the nine rows, the fastest first; default all. Without a device: one small row
+// with the host executor, to check that the program runs.
 
 #include "cases.h"
 #include "device_peaks.h"
@@ -20,10 +20,10 @@
 namespace heddle::check {
 namespace {
 
-/// A row of the paper's table: seconds on a GTX 1080 Ti, voxels alone and with levels.
+/// A row of the paper's table: seconds on a GTX 1080 Ti, for voxels alone and with levels.
 struct Row {
     const char* shape;
-    double nodes; ///< of fibers, each of 60 samples
+    double nodes; ///< of fibers, each with 60 samples
     int voxels;
     double paper, paper_levels;
 };
@@ -36,14 +36,14 @@ constexpr Row kRows[] = {
 };
 constexpr int kFibers = 150;
 
-/// The other way to read the paper: its nodes are of yarns, and each has 150 fibers.
+/// The other way to read the paper: its nodes are nodes of yarns, each of which has 150 fibers.
 constexpr Row kOtherReading{"flat", 150 * 8.36e6, 1024, 3.45, 8.8};
 
-/// Operations that a sample takes at least, counted in expand_op.h: the fiber's point and its chord.
+/// Minimum operations of a sample, counted in expand_op.h: the fiber's point and its chord.
 constexpr double kFlopsPerSample = 80.0;
 constexpr double kSamplesPerNode = 60.0;
 
-/// What the device could do at best.
+/// The best that the device can do.
 struct Peaks {
     double gigabytes = copy_bandwidth();
     double gigaflops = peak_gigaflops();
@@ -55,13 +55,13 @@ double seconds_of(const auto& body) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// One voxelization's time and what it made.
+/// The time of one voxelization and its result.
 struct Run {
     double seconds = 0.0;
     VoxelLevels levels;
     DeviceReport report;
 
-    /// Seconds of launches in stages whose names begin so.
+    /// Seconds of launches in phases whose names begin with `begin`.
     [[nodiscard]] double launches(const std::string& begin = "") const {
         double sum = 0.0;
         for (const auto& [stage, spent] : report.stages) {
@@ -101,7 +101,7 @@ double cpu_seconds(const Geometry& g, const VoxelizeOptions& options) {
     });
 }
 
-/// Nodes read from a file as they lie.
+/// Reads nodes from a file in their memory layout.
 double read_seconds(const Geometry& g) {
     std::FILE* file = std::tmpfile();
     if (file == nullptr) return 0.0;
@@ -113,7 +113,7 @@ double read_seconds(const Geometry& g) {
         for (const CurveSet& set : g.curves) {
             std::vector<Vec3f> points(set.points.size());
             if (std::fread(points.data(), sizeof(Vec3f), points.size(), file) != points.size()) {
-                std::fprintf(stderr, "speed: a temporary file was read short\n");
+                std::fprintf(stderr, "speed: a temporary file is too short\n");
             }
         }
     });
@@ -121,7 +121,7 @@ double read_seconds(const Geometry& g) {
     return seconds;
 }
 
-/// The arrays of all blocks written to a file as they lie.
+/// Writes the arrays of all blocks to a file in their memory layout.
 double write_seconds(const VoxelLevels& levels, double& gigabytes) {
     std::FILE* file = std::tmpfile();
     if (file == nullptr) return 0.0;
@@ -151,7 +151,7 @@ void print_row(const Row& row, bool with_cpu, const Peaks& peaks) {
     options.voxels = row.voxels;
     std::size_t points = 0;
     for (const CurveSet& set : g.curves) points += set.points.size();
-    const Run first = run_device(g, options, {}, false); // the pool of memory fills
+    const Run first = run_device(g, options, {}, false); // fills the memory pool
     const Run level0 = run_device(g, options, {}, false);
     const Run levels = run_device(g, options, {}, true);
     const double read = read_seconds(g);
@@ -187,8 +187,8 @@ void print_row(const Row& row, bool with_cpu, const Peaks& peaks) {
     std::fflush(stdout);
 }
 
-/// Launches alone, beside cuda_voxelizer's published times for a bunny of as many triangles on a GTX
-/// 1050 Ti (112 GB/s), scaled by bandwidth.
+/// Times of launches alone, beside cuda_voxelizer's published times for a bunny with the same
+/// number of triangles on a GTX 1050 Ti (112 GB/s), scaled by bandwidth.
 void print_mesh(int voxels, double published_ms, double bandwidth) {
     const Geometry g = body(70000);
     VoxelizeOptions options;

@@ -10,9 +10,9 @@ namespace {
 
 using namespace heddle::test;
 
-constexpr int kBundles = 12; ///< per row, each with a direction of its own
+constexpr int kBundles = 12; ///< per row, each with its own direction
 
-/// One solid yarn along two turns of a helix, 12 points a turn: radius 4.2, pitch 5 yarn radii.
+/// One solid yarn along two turns of a helix, 12 points per turn: radius 4.2, pitch 5 yarn radii.
 Bundle bent_yarn(const BundleOptions& o) {
     CurveSet curve;
     const double radius = o.radius / 8.0;
@@ -59,10 +59,10 @@ void print_bundles() {
         "## Bundles\n\n"
         "Bundles of 150 fibers, 12 random directions a row, coverage of every occupied voxel and\n"
         "axis against 64 x 64 rays through the exact cylinders. Straight: straight fibers about a\n"
-        "common axis, slope .15 at the surface, directions strewn by .03. Yarn: helices of a\n"
+        "common axis, slope 0.15 at the surface, directions scattered by 0.03. Yarn: helices of a\n"
         "procedural yarn, expanded by the voxelizer. Bent: one solid yarn along a helix of radius\n"
         "4.2, pitch 5 yarn radii. Lengths in subvoxels. Goal: bias 0.005, mean absolute error\n"
-        ".025. Mask is `--coverage mask`.\n\n"
+        "0.025. Mask is `--coverage mask`.\n\n"
         "| bundle | radius | fiber diameter | fill | faces | mean coverage | bias | mean abs error "
         "| mask: bias | mask: mean abs error |\n|---|---|---|---|---|---|---|---|---|---|\n");
     for (const double radius : {4.0, 10.0, 24.0}) {

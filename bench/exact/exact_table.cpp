@@ -1,5 +1,5 @@
-// Prints, as markdown, how exact a voxelization is: coverage, leaf fits and volume against the
-// geometry's own definition.
+// Prints, as markdown, how accurate a voxelization is: its coverage, leaf fits and volume are
+// compared with the geometry's own definition.
 
 #include "tables.h"
 
@@ -20,7 +20,7 @@ constexpr Table kTables[] = {{"isolated", heddle::bench::print_isolated_fibers},
 
 } // namespace
 
-/// Prints the tables named on the command line, or all.
+/// Prints the tables that are named on the command line, or all.
 int main(int argc, char** argv) {
     int printed = 0;
     for (const Table& table : kTables) {

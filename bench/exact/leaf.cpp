@@ -10,10 +10,10 @@ namespace {
 
 using namespace heddle::test;
 
-constexpr int kTurns = 100;  ///< random orientations a set
-constexpr int kViews = 1000; ///< directions of projected area
+constexpr int kTurns = 100;  ///< random orientations per set
+constexpr int kViews = 1000; ///< directions of the projected area
 
-/// Error of the projected area over all views.
+/// The error of the projected area over all views.
 struct AreaError {
     double absolute = 0.0, worst = 0.0;
     int count = 0;
@@ -36,7 +36,7 @@ SggxMatrix fit_by_projection(const std::vector<Vec3d>& directions) {
 }
 
 struct LeafErrors {
-    double moment = 0.0, packed_moment = 0.0; ///< worst entry
+    double moment = 0.0, packed_moment = 0.0; ///< of the worst entry
     AreaError fit, packed, projection;
     int definite = 0;
 

@@ -2,7 +2,7 @@
 
 namespace heddle::bench {
 
-/// Each prints one section of bench/results/exact.md, as markdown, to stdout.
+/// Each function prints one section of bench/results/exact.md, as markdown, to stdout.
 void print_isolated_fibers();
 void print_bundles();
 void print_leaf_fits();

@@ -14,8 +14,8 @@
 namespace heddle::bench {
 namespace {
 
-constexpr std::uint64_t kSeed = 4;  ///< of the choice of voxels
-constexpr std::size_t kShares = 32; ///< that the chosen are split into, for threads
+constexpr std::uint64_t kSeed = 4;  ///< seed for choosing voxels
+constexpr std::size_t kShares = 32; ///< parts of the chosen voxels, for threads
 constexpr std::size_t kGrain = 64 * 1024;
 
 std::uint64_t hash_of(Vec3i at) {
@@ -44,7 +44,7 @@ double moment_error(const PooledMoment& pooled, const std::vector<MixtureLobe>& 
     return worst;
 }
 
-/// Adds the directions `numbers`. Nine tenths of the bench's time: built for AVX2 too, in one piece.
+/// Adds the directions `numbers`. This takes nine tenths of the time: inlined, AVX2 too.
 HEDDLE_CLONES __attribute__((flatten)) void
 add_directions(std::span<const Directed> directions,
                const std::vector<std::uint32_t>& numbers,

@@ -13,19 +13,19 @@
 
 namespace heddle::bench {
 
-inline constexpr std::size_t kKinds = 2; ///< of Kind
+inline constexpr std::size_t kKinds = 2; ///< number of values of Kind
 
-/// Second moment and weight, pooled.
+/// A pooled second moment and its weight.
 struct PooledMoment {
     std::array<double, 6> moment{};
     double weight = 0.0;
 };
 
-/// Some voxels of a level, and what lies in them: all directions of the geometry, by brute force.
+/// Some voxels of a level, and all directions of the geometry in them, by brute force.
 class Parents {
 public:
-    /// @param level  its voxels are looked at, not their lobes
-    /// @param most   that are chosen, by seeded hash; all where the level has no more
+    /// @param level  only its voxels are used, not their lobes
+    /// @param most   number to choose, by seeded hash; all if the level has no more
     Parents(const VoxelLevel& level, std::size_t most);
 
     [[nodiscard]] std::size_t size() const { return voxels_.size(); }
@@ -33,16 +33,16 @@ public:
     [[nodiscard]] std::size_t voxels_in_level() const { return there_; }
     [[nodiscard]] Vec3i voxel(std::size_t i) const { return voxels_[i]; }
 
-    static constexpr std::uint32_t kNotThere = 0xffffffffu; ///< the level has no such voxel
+    static constexpr std::uint32_t kNotThere = 0xffffffffu; ///< the level does not have this voxel
     static constexpr std::uint32_t kNotChosen = 0xfffffffeu;
-    /// Number of a voxel of this level among the chosen, or one of the above.
+    /// Index of a voxel of this level among the chosen ones, or one of the constants above.
     [[nodiscard]] std::uint32_t find(Vec3i at) const;
 
-    /// Adds directions of level 0, on all threads; each parent's in their order.
+    /// Adds directions of level 0, on all threads; those of one parent in their order.
     void add(std::span<const Directed> directions);
-    /// Adds what the parents of the level below hold, where they are all of its voxels.
+    /// Adds the sums of the parents of the level below, if they are all of its voxels.
     void add_below(const Parents& below);
-    /// Pools level 0's unquantized sums.
+    /// Pools the unquantized sums of level 0.
     /// @param finest  with masks
     void pool(const VoxelLevel& finest);
 
@@ -52,7 +52,7 @@ public:
     [[nodiscard]] const PooledMoment& pooled(std::size_t i, Kind kind) const {
         return pooled_[i * kKinds + static_cast<std::size_t>(kind)];
     }
-    /// Share of the geometry's directed area that lies in no voxel of this level.
+    /// Fraction of the geometry's directed area that is in no voxel of this level.
     [[nodiscard]] double lost() const { return total_ > 0.0 ? lost_ / total_ : 0.0; }
 
 private:
@@ -68,7 +68,7 @@ private:
     double total_ = 0.0;
 };
 
-/// What a level holds of a voxel, decoded.
+/// The decoded lobes that a level stores for a voxel.
 struct Mixture {
     std::array<std::vector<MixtureLobe>, kKinds> lobes;
 };
@@ -76,17 +76,17 @@ struct Mixture {
 /// The mixtures of the chosen voxels.
 [[nodiscard]] std::vector<Mixture> decode(const VoxelLevel& level, const Parents& parents);
 
-inline constexpr double kMomentGoal = 0.01; ///< of every voxel
+inline constexpr double kMomentGoal = 0.01; ///< for every voxel
 
-/// Errors of a level, over its chosen voxels.
+/// The errors of a level, over its chosen voxels.
 struct LevelErrors {
-    std::size_t count = 0;                        ///< voxels that directions of this kind lie in
+    std::size_t count = 0;                        ///< voxels with directions of this kind
     double moment_max = 0.0, moment_median = 0.0; ///< against the geometry
     double pooled_max = 0.0, pooled_median = 0.0; ///< against the sums of level 0
     double sigma = 0.0;                           ///< mean
     double cells = 0.0;                           ///< mean
     std::size_t over = 0;    ///< voxels whose moment errs by more than kMomentGoal
-    double over_share = 0.0; ///< of the directed area of all that were measured
+    double over_share = 0.0; ///< their share of the measured directed area
 };
 
 [[nodiscard]] LevelErrors

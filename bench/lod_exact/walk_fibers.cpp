@@ -13,9 +13,9 @@
 namespace heddle::bench {
 namespace {
 
-constexpr double kStep = 1.0 / 8.0; ///< longest, subvoxels
-constexpr int kRunSteps = 8;        ///< that one direction stands for
-constexpr double kBatch = 2e6;      ///< directions, about
+constexpr double kStep = 1.0 / 8.0; ///< longest step, subvoxels
+constexpr int kRunSteps = 8;        ///< steps per direction
+constexpr double kBatch = 2e6;      ///< approximate number of directions
 constexpr double kTau = 6.283185307179586;
 
 Vec3i voxel_of(Vec3d p, Vec3d size) {
@@ -24,7 +24,7 @@ Vec3i voxel_of(Vec3d p, Vec3d size) {
     return at;
 }
 
-/// A fiber that is walked along.
+/// The state of a fiber that is visited in steps.
 struct Run {
     Vec3d from, at;
     Vec3i voxel;
@@ -52,13 +52,13 @@ struct Run {
     }
 };
 
-/// Largest |P'|, or more.
+/// The largest |P'|, or an upper bound.
 double fastest(const Cubic& c) {
     return std::max(
         {length(c.c[1]), length(c.c[1] + c.c[2]), length(c.c[1] + 2.0 * c.c[2] + 3.0 * c.c[3])});
 }
 
-/// A piece's cross-section, all in scene units.
+/// The cross-section of a piece, all in scene units.
 YarnSection<double>
 section_at(const FiberPiece& piece, const YarnCourse& course, double unit, double t) {
     YarnSection<double> section(piece.cubic, course, t);
@@ -66,7 +66,7 @@ section_at(const FiberPiece& piece, const YarnCourse& course, double unit, doubl
     return section;
 }
 
-/// The fibers of a yarn at one place.                                    [Zhao 2016, sec. 4]
+/// The fibers of a yarn at one point.                                    [Zhao 2016, sec. 4]
 class YarnFibers {
 public:
     YarnFibers(const YarnType& yarn, const FiberTable& table) : yarn_(yarn), table_(table) {
@@ -79,7 +79,7 @@ public:
         amplitude_ = 0.5 * static_cast<double>(yarn.migration_max - yarn.migration_min);
     }
     [[nodiscard]] std::size_t count() const { return table_.size(); }
-    /// Model units.
+    /// In model units.
     [[nodiscard]] double diameter() const { return 2.0 * static_cast<double>(table_.fiber_radius); }
 
     /// Calls visit(fiber, position).
@@ -122,7 +122,7 @@ private:
     double amplitude_ = 0.0;
 };
 
-/// Walks all fibers of a piece at once.
+/// Visits all fibers of a piece at once.
 /// @return  the longest step, scene units
 double walk_yarn(const YarnFibers& fibers,
                  const FiberPiece& piece,
@@ -148,7 +148,7 @@ double walk_yarn(const YarnFibers& fibers,
     return longest;
 }
 
-/// Fibers outside a bend run farther than their yarn's centreline: how many steps they need is tried.
+/// Fibers outside in a bend are longer than the centreline: the number of steps is found by trying.
 void walk_yarn(const FiberSource& source,
                const LatticeUnits& units,
                const FiberPiece& piece,
@@ -166,7 +166,7 @@ void walk_yarn(const FiberSource& source,
     }
 }
 
-/// A curve that is one fiber.
+/// Visits a curve that is one fiber.
 void walk_plain(const FiberSource& source,
                 const LatticeUnits& u,
                 const FiberPiece& piece,
@@ -184,7 +184,7 @@ void walk_plain(const FiberSource& source,
     run.flush(out);
 }
 
-/// The fibers of the yarn that was last asked for.
+/// The fibers of the yarn that was used last.
 struct TableMemo {
     std::uint32_t set = ~0u;
     std::uint64_t curve = ~std::uint64_t{0};
@@ -192,7 +192,7 @@ struct TableMemo {
 
     const FiberTable& of(const FiberSource& source, const FiberPiece& piece) {
         if (set != piece.set || curve != piece.curve) {
-            // as the voxelizer numbers them: other fibers would be another object
+            // numbered as in the voxelizer: other fibers would be another object
             table =
                 place_fibers(*source.yarn_of(piece.set), source.seed() + piece.set, piece.curve);
             set = piece.set;

@@ -13,7 +13,7 @@
 namespace heddle::bench {
 namespace {
 
-constexpr double kBatch = 2e6; ///< points, about
+constexpr double kBatch = 2e6; ///< approximate number of points
 
 struct TriangleId {
     std::uint32_t mesh;
@@ -36,8 +36,8 @@ std::vector<TriangleId> list_triangles(const Geometry& geometry) {
     return list;
 }
 
-/// Barycentrics of point `i` of the R2 sequence [Roberts 2018], shifted at random, folded onto the
-/// triangle.
+/// Barycentric coordinates of point `i` of the R2 sequence [Roberts 2018], shifted at random and
+/// folded onto the triangle.
 Vec3d point_on(std::uint64_t id, std::int64_t i) {
     const auto n = static_cast<double>(i) + 1.0;
     double u = static_cast<double>(to_unit_float(hash64(17, id, 0))) + 0.7548776662466927 * n;
@@ -67,7 +67,7 @@ struct Surfaces {
         const std::uint64_t number = std::uint64_t{id.mesh} << 32 | id.triangle;
         for (std::int64_t i = 0; i < count; ++i) {
             const Vec3d w = point_on(number, i);
-            // the place seeds the sampler's random footprint point: unlike for every point
+            // the index seeds the sampler's random footprint point: different for every point
             const SurfaceHit hit{static_cast<std::int32_t>(id.mesh % 3),
                                  static_cast<std::int32_t>(id.triangle),
                                  static_cast<std::int32_t>(i),
@@ -99,7 +99,7 @@ void walk_triangles(const Geometry& geometry,
                     double spacing,
                     const TakeDirections& take) {
     const double edge = spacing * LatticeUnits(lattice).unit;
-    constexpr std::uint64_t kSeed = 71; // not the voxelizer's
+    constexpr std::uint64_t kSeed = 71; // different from the voxelizer's
     const Surfaces surfaces{geometry, SurfaceSource(geometry, {edge, edge, edge}, kSeed),
                             lattice.voxel_size, edge * edge};
     for (const Mesh& mesh : geometry.meshes) {

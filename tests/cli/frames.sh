@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# frames.sh HEDDLE: a sequence in one run: each frame has the bits of a run of its own.
+# frames.sh HEDDLE: a sequence in one run: each frame has the bits of a separate run.
 . "$(dirname "$0")/functions.sh"
 
 make_yarn

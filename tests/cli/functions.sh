@@ -1,5 +1,5 @@
-# Read by each script of this folder, which is called with the path of the program: checks of what
-# scripts may rely on, in a folder of their own that is removed at the end. `finish` ends a script.
+# Sourced by each script of this folder, which is called with the path of the program: checks of
+# exit codes and messages, in a temporary folder that is removed at the end. `finish` ends a script.
 set -uo pipefail
 heddle=$1
 work=$(mktemp -d)
@@ -15,15 +15,15 @@ finish() {
     [ "$failures" -eq 0 ] && echo "all as expected"
     exit $((failures > 0))
 }
-# Mesa's threads may end while LeakSanitizer looks at them, and then it fails (1 run in 30): leaks
-# of what draws are looked for by the rooms' own tests.
+# Mesa's threads may end while LeakSanitizer inspects them, and then it fails (1 run in 30): leaks
+# in drawing are checked by the tests of the rooms.
 heddle() {
     case " $* " in
     *" view "* | *" raster "*) ASAN_OPTIONS="${ASAN_OPTIONS:-}:detect_leaks=0" "$heddle" "$@" ;;
     *) "$heddle" "$@" ;;
     esac
 }
-# fails CODE TEXT ARGUMENT...: exit code CODE, nothing on stdout, one line on stderr that holds TEXT
+# fails CODE TEXT ARGUMENT...: exit code CODE, no stdout, one line on stderr that contains TEXT
 fails() {
     local code=$1 text=$2
     shift 2
@@ -35,12 +35,12 @@ fails() {
     [ "$(wc -l <err.txt)" -eq 1 ] || wrong "not one line on stderr: heddle $*: $(cat err.txt)"
     grep -qF -- "$text" err.txt || wrong "no '$text' in: $(cat err.txt)"
 }
-# works ARGUMENT...: exit code 0, nothing on stderr but notes; stdout is in out.txt
+# works ARGUMENT...: exit code 0, only notes on stderr; stdout is in out.txt
 works() {
     heddle "$@" >out.txt 2>err.txt || wrong "exit code $?: heddle $*: $(cat err.txt)"
     ! grep -qv '^note: ' err.txt || wrong "words on stderr: heddle $*: $(cat err.txt)"
 }
-# json KEY: prints the value of out.txt's key
+# json KEY: prints the value of a key in out.txt
 json() {
     cat >json.cmake <<'CMAKE'
 file(READ out.txt text)
@@ -50,7 +50,7 @@ CMAKE
     cmake -DKEY="$1" -P json.cmake || wrong "no key '$1' in: $(cat out.txt)"
     cat value.txt
 }
-# interrupt JOB: Ctrl-C after a second of work, which must end with exit code 130
+# interrupt JOB: sends Ctrl-C after a second of work; the job must end with exit code 130
 interrupt() {
     sleep 1
     kill -INT "$1"
@@ -58,8 +58,8 @@ interrupt() {
     local status=$?
     [ $status -eq 130 ] || wrong "Ctrl-C gives exit code $status, not 130: $(cat err.txt)"
 }
-# kept_old: the output that was there before the failed runs is what it was, and nothing is left
-# beside it
+# kept_old: the output from before the failed runs is unchanged, and there are no other files beside
+# it
 kept_old() {
     [ "$(cat old.vdb)" = old ] || wrong "a failed run changed the old output"
     local left
@@ -67,7 +67,7 @@ kept_old() {
     [ -z "$left" ] || wrong "left behind: $left"
 }
 
-# inputs to work with
+# inputs
 make_knit() { works generate knit --counts 6,6 -o knit.bcc; }
 make_grass() { works generate grass --counts 20,4 -o grass.glb; }
 make_hair() { works generate hair --counts 50,8 -o hair.hair; }

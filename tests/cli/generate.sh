@@ -5,7 +5,7 @@
 fails 2 "did you mean 'knit'?" generate knot -o a.bcc
 fails 2 "must end in .bcc" generate knit -o a.obj
 
-# a weave's file holds its warp and its weft, as the report says: NX yarns of 8 NY + 3 points and
+# the file of a weave contains its warp and its weft, as reported: NX yarns of 8 NY + 3 points and
 # NY of 8 NX + 3
 number() { od -An -t u8 -j "$1" -N 8 "$2" | tr -d ' '; }
 for kind in plain twill satin; do

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# info.sh HEDDLE: what a file holds, as a table and as JSON.
+# info.sh HEDDLE: the contents of a file, as a table and as JSON.
 . "$(dirname "$0")/functions.sh"
 
 make_knit

@@ -1,16 +1,16 @@
 #!/usr/bin/env bash
-# inputs.sh HEDDLE: what is no input ends in one line, and the old output stays.
+# inputs.sh HEDDLE: an invalid input gives one line, and the old output stays.
 . "$(dirname "$0")/functions.sh"
 
 make_knit
 make_grass
 make_hair
 
-# with an old output in the way
+# an old output is in the way
 echo old >old.vdb
 bad() { fails 3 "$1" voxelize "$2" --voxels 32 -o old.vdb; }
 bad "missing.bcc" missing.bcc
-for suffix in bcc hair data pyp obj ply gltf glb; do # one row a trap, for every reader
+for suffix in bcc hair data pyp obj ply gltf glb; do # every row is a trap, for every reader
     mkdir "folder.$suffix" && bad "folder.$suffix: is a directory" "folder.$suffix"
     : >"empty.$suffix" && bad "empty.$suffix" "empty.$suffix"
     echo "some words that are long enough to be a header: 0123456789 0123456789 0123456789" \
@@ -38,7 +38,7 @@ printf '# a Mac\rv 0 0 0\rv 1 0 0\rv 0 1 0\rf 1/ 2 3\r' >mac.obj && works info m
 mesh "bad.obj:1" "1 2 3" nan
 mesh "bad.obj:1" "1 2 3" 1e39
 printf 'v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n' >point.obj && bad "has no extent" point.obj
-{ # .data: one strand of two points, which are one
+{ # .data: one strand of two points at the same position
     printf '\001\000\000\000\002\000\000\000' && head -c 24 /dev/zero
 } >point.data
 bad "has no extent" point.data

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# lod.sh HEDDLE: levels built again, and level 0 alone.
+# lod.sh HEDDLE: levels that are built again, and level 0 alone.
 . "$(dirname "$0")/functions.sh"
 
 make_knit
 make_yarn
 make_one
 
-# what neighbours share: level 0 alone has the bytes of level 0 among all
+# the correlation of neighbours: level 0 alone has the same bytes as level 0 with others
 for backend in sample raster; do
     works voxelize knit.bcc --yarn slice.toml --voxels 64 --correlation --backend $backend \
         -o shared.vdb
@@ -21,7 +21,7 @@ for backend in sample raster; do
     works info shared0.vdb --json && [ "$(json content_hash)" != "$hash0" ] ||
         wrong "no correlation is stored, $backend"
 done
-# levels again: from masks bit for bit, without them not if --exact
+# levels built again: from masks bit for bit; without masks --exact refuses
 works voxelize knit.bcc --yarn cotton --voxels 64 --keep-masks --correlation -o masks.vdb
 works info masks.vdb --json
 masks=$(json content_hash)

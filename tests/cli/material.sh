@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# material.sh HEDDLE: another colour keeps the voxels.
+# material.sh HEDDLE: a new colour leaves the voxels unchanged.
 . "$(dirname "$0")/functions.sh"
 
 make_knit

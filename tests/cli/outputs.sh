@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# outputs.sh HEDDLE: an output that cannot be written is named before the work starts; old ones stay.
+# outputs.sh HEDDLE: an output that cannot be written is reported before the work; old ones stay.
 . "$(dirname "$0")/functions.sh"
 
 make_knit
@@ -19,7 +19,7 @@ fi
 [ -c /dev/full ] || wrong "/dev/full was replaced"
 "$heddle" info knit.bcc >/dev/full 2>err.txt
 [ $? -eq 1 ] && grep -q "stdout" err.txt || wrong "a full stdout goes unnoticed"
-# a full disk, as a limit on what one file may hold
+# a full disk, simulated by a limit on the size of a file
 (
     trap '' XFSZ
     ulimit -f 4

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# render.sh HEDDLE: pictures of volumes and scenes, and what is refused.
+# render.sh HEDDLE: pictures of volumes and scenes, and invalid options.
 . "$(dirname "$0")/functions.sh"
 
 make_knit

@@ -5,7 +5,7 @@
 make_knit
 make_one
 
-# stopped by Ctrl-C and resumed: the bits of one go
+# stopped by Ctrl-C and resumed: the same bits as without a stop
 "$heddle" render one.vdb -o killed.exr --size 64x64 --time 60 --threads 1 --quiet 2>err.txt &
 interrupt $!
 [ -s killed.exr ] && [ -s killed.exr.checkpoint ] || wrong "Ctrl-C left no picture or no checkpoint"

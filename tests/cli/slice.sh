@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# slice.sh HEDDLE: a slice of a yarn, and its yarn in a file.
+# slice.sh HEDDLE: the slice image of a yarn, and the yarn file that uses it.
 . "$(dirname "$0")/functions.sh"
 
 works slice cotton --size 64 -o slice.png --yarn-file slice.toml --occlusion dark.png \

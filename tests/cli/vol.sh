@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# vol.sh HEDDLE: Mitsuba volumes as input, whole and broken.
+# vol.sh HEDDLE: Mitsuba volumes as input, valid and damaged.
 . "$(dirname "$0")/functions.sh"
 
 make_knit

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# voxelize.sh HEDDLE: the same voxels for any thread count and device; values out of range.
+# voxelize.sh HEDDLE: the same voxels for any thread count and device; invalid values.
 . "$(dirname "$0")/functions.sh"
 
 make_knit
@@ -28,7 +28,7 @@ works info one.vdb --json
 hash=$(json content_hash)
 works info three.vdb --json
 [ "$(json content_hash)" = "$hash" ] || wrong "one thread and three give different voxels"
-# where voxels are made: machines that run this have no GPU, or give the same voxels by it
+# the choice of a device: machines that run this have no GPU, or one that gives the same voxels
 works voxelize knit.bcc --voxels 40 --device auto -o auto.vdb
 works voxelize knit.bcc --voxels 40 --device cpu -o cpu.vdb
 works info auto.vdb --json

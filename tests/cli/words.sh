@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# words.sh HEDDLE: the list of commands, the help of each, and what is said of a mistyped word.
+# words.sh HEDDLE: the list of commands, the help of each, and the message for a misspelled word.
 . "$(dirname "$0")/functions.sh"
 
 works

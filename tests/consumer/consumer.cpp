@@ -1,4 +1,4 @@
-// What a stranger's program does with the installed core: includes, links and calls one thing of each library.
+// A program of another project that uses the installed core: it calls one function of each library.
 #include <heddle/base/parallel.h>
 #include <heddle/geom/geometry.h>
 #include <heddle/sggx/sggx.h>

@@ -1,4 +1,4 @@
-// host PLUGIN: loads the plug-in and has it voxelize a polyline, as a program does that knows nothing of heddle.
+// host PLUGIN: loads the plug-in and lets it voxelize a polyline, like a program without heddle.
 #include <dlfcn.h>
 #include <cstdint>
 #include <cstdio>

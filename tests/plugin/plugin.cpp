@@ -1,4 +1,4 @@
-// What a plug-in of a modelling program is: plain C at the border, heddle behind it.
+// A plug-in like those of modelling programs: a C interface with heddle behind it.
 #include <heddle/heddle.h>
 
 #include <cstdint>
@@ -17,9 +17,9 @@ std::int64_t count_voxels(const heddle::Geometry& geometry, std::int64_t voxels)
 } // namespace
 
 /// Voxelizes a polyline.
-/// @param points  three numbers a point
+/// @param points  three numbers per point
 /// @param voxels  along the longest axis
-/// @return        the number of voxels; -1: it failed, and `message` says why
+/// @return        the number of voxels; -1: it failed, and `message` has the reason
 extern "C" [[gnu::visibility("default")]] std::int64_t voxelize_polyline(const float* points,
                                                                          std::int64_t point_count,
                                                                          float radius,
@@ -37,7 +37,7 @@ extern "C" [[gnu::visibility("default")]] std::int64_t voxelize_polyline(const f
             set.points.push_back({points[0], points[1], points[2]});
         }
         return count_voxels(geometry, voxels);
-    } catch (const std::exception& error) { // none may pass through the C border
+    } catch (const std::exception& error) { // no exception may leave a C function
         std::snprintf(message, message_size, "%s", error.what());
         return -1;
     }

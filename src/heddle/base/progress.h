@@ -37,7 +37,7 @@ public:
     void check() const;
 
 protected:
-    /// For one that passes everything on to `outer`: it is cancelled when that one is.
+    /// For a Progress that passes everything on to `outer`: it is cancelled when `outer` is.
     explicit Progress(const Progress* outer) : outer_(outer) {}
 
 private:

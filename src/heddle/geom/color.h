@@ -19,9 +19,9 @@ namespace heddle {
     return out;
 }
 
-// sRGB, of one channel. [IEC 61966-2-1] T is float or double; which one shows: of 10 million floats
-// 30 have another byte in double, and of the 256 bytes one (111) another 16-bit linear value.
-// The shader of window/presenter.cpp has the same curve.
+// sRGB of one channel [IEC 61966-2-1]. T is float or double, and the choice is visible: in double,
+// 30 of 10 million floats become another byte, and one of the 256 bytes (111) becomes another
+// 16-bit linear value. The shader of window/presenter.cpp has the same curve.
 
 /// @param linear  in [0, 1]
 /// @return        in [0, 1]
@@ -36,7 +36,7 @@ template <typename T>
 [[nodiscard]] T linear_from_srgb(T srgb) {
     return srgb <= T(0.04045) ? srgb / T(12.92) : std::pow((srgb + T(0.055)) / T(1.055), T(2.4));
 }
-/// @param linear  what lies outside [0, 1] is clamped; NaN gives 0
+/// @param linear  values outside [0, 1] are clamped; NaN gives 0
 template <typename T>
 [[nodiscard]] std::uint8_t srgb_byte(T linear) {
     const T inside = linear > T(0) ? std::min(linear, T(1)) : T(0);

@@ -2,8 +2,7 @@
 
 #include <heddle/base/vec.h>
 #include <heddle/io/file/problems.h>
-
-#include <toml++/toml.h>
+#include <heddle/io/file/toml_text.h>
 
 #include <initializer_list>
 #include <limits>

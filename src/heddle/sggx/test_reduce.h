@@ -6,18 +6,18 @@
 #include <cstdint>
 #include <span>
 
-// Methods of merging, applied to lobes alone: what tests and benchmarks compare. The voxelizer and
-// the levels merge lobes with their maps (voxel/lobe_pool.h).
+// Methods of merging, applied to lobes alone, for tests and benchmarks. The voxelizer and the
+// levels merge lobes together with their maps (voxel/lobe_pool.h).
 
 namespace heddle::test {
 
-/// Reduces pooled lobes to at most `keep` by the method `moments`, and to fewer while two are
-/// closer than `same`. Lobes of different materials merge only when no two of one material are left.
+/// Reduces pooled lobes to at most `keep` by the method `moments`, and further while two are closer
+/// than `same`. Lobes of different materials merge only if no two of one material are left.
 ///
-/// @param lobes   0 .. kMaxPool, weights > 0; those left stand at the front, in their order
+/// @param lobes   0 .. kMaxPool, weights > 0; those left are at the front, in order
 /// @param keep    1 or more
-/// @param merges  receives size - return value merges, numbers as `lobes` stood before
-/// @param same    0: merge down to `keep` and no further
+/// @param merges  receives size - return value merges, with the numbers of `lobes` before the call
+/// @param same    0: merges down to `keep` and no further
 /// @return        how many are left
 inline int
 reduce_lobes(std::span<DirectionSums> lobes, int keep, LobeMerge* merges, float same = kSameLobe) {
@@ -27,10 +27,10 @@ reduce_lobes(std::span<DirectionSums> lobes, int keep, LobeMerge* merges, float 
     return compact_lobes(lobes, merges, agglomerate(count, keep, policy, merges, same));
 }
 
-/// Reduces pooled lobes to at most `keep` by the method `wasserstein`; as reduce_lobes.
+/// Reduces pooled lobes to at most `keep` by the method `wasserstein`, as reduce_lobes does.
 ///
-/// About 15 ms for 24 lobes.
-/// @param seed  of the samples
+/// Takes about 15 ms for 24 lobes.
+/// @param seed  seed of the samples
 inline int reduce_lobes_by_wasserstein(std::span<DirectionSums> lobes,
                                        int keep,
                                        std::uint64_t seed,

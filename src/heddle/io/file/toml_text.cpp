@@ -1,3 +1,4 @@
+#define TOML_IMPLEMENTATION // of toml++
 #include <heddle/io/file/toml_text.h>
 
 #include <heddle/base/error.h>

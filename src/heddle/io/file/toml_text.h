@@ -2,6 +2,7 @@
 
 #include <heddle/io/file/problems.h>
 
+#define TOML_HEADER_ONLY 0 // toml_text.cpp compiles the parser, once for all
 #include <toml++/toml.h>
 
 #include <optional>

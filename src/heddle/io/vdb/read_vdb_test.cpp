@@ -61,7 +61,7 @@ MemoryLevel make_small() {
     return grid;
 }
 
-/// A file of some 40 kB, nearly all of it the masks of the nodes above the only leaf.
+/// A file of about 40 kB, nearly all of it the masks of the nodes above the only leaf.
 MemoryLevel make_one_voxel() {
     testing::VoxelMap voxels;
     testing::TestVoxel& v = voxels[{1, 2, 3}];

@@ -44,8 +44,8 @@ openvdb::Vec3i to_vdb(Vec3i v) {
 
 using HalfDirection = std::array<openvdb::math::half, 3>;
 
-/// The standard tree that stores values of a type, by its name in a file and the size of its values.
-/// Grids of OpenVDB's own are never made: their templates alone took a minute to compile.
+/// The standard tree that stores values of a type: its name in a file and the size of its values.
+/// OpenVDB's own grids are never created: their templates alone took a minute to compile.
 struct TreeType {
     const char* name;
     std::size_t value_bytes;

@@ -5,13 +5,13 @@
 
 namespace heddle {
 
-/// A built-in yarn: one of the files in presets/, which the build puts into the library.
+/// A built-in yarn: one of the files in presets/, which the build embeds in the library.
 struct YarnPreset {
     std::string_view name; ///< the file's stem
     std::string_view toml;
 };
 
-/// All of them, ascending by name.
+/// All built-in yarns, ascending by name.
 [[nodiscard]] std::span<const YarnPreset> yarn_presets();
 
 } // namespace heddle

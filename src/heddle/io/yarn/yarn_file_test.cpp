@@ -187,7 +187,7 @@ TEST(YarnFile, PresetsSurviveTheTomlFormBitForBit) {
     EXPECT_TRUE(same(fit, parse_yarn_toml(write_yarn_toml(fit), "a.toml").yarn));
 }
 
-/// What the presets are, field by field.
+/// The fields of the presets.
 YarnType cotton() {
     YarnType y;
     y.name = "cotton";

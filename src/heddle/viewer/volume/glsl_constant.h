@@ -9,11 +9,11 @@
 
 namespace heddle::viewer {
 
-/// GLSL: a constant that has its value from C++, as a line of its own.
+/// GLSL: a line that defines a constant with a value from C++.
 [[nodiscard]] inline std::string glsl_constant(std::string_view name, int value) {
     return str("const int ", name, " = ", value, ";\n");
 }
-/// With as many digits as bring the same float back.
+/// The value has as many digits as are needed to read the same float.
 [[nodiscard]] inline std::string glsl_constant(std::string_view name, float value) {
     std::array<char, 32> text{};
     const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;

@@ -10,8 +10,8 @@
 
 namespace heddle::viewer {
 
-inline constexpr int kMaxVoxelLevels = 24;    ///< as many as shaders have room for
-inline constexpr int kBlockShift = 5;         ///< a block is a cell of 32^3 of the finest voxels
+inline constexpr int kMaxVoxelLevels = 24;    ///< the number that shaders have room for
+inline constexpr int kBlockShift = 5;         ///< a block is a cube of 32^3 of the finest voxels
 inline constexpr std::size_t kLeafWords = 21; ///< active: 16, before: 4, first voxel: 1
 
 /// The memory of a level on the driver, by storage block.

@@ -172,7 +172,7 @@ TEST(VoxelLook, TheWhiteBlockIsSolidWithDarkCellEdges) {
     look.white_block = Vec3i{1, 0, 0};
     CameraParameters camera{
         .orthographic = true, .eye = {32.0, 8.0, 9.0}, .target = {32.0, 8.0, 0.0}};
-    camera.view_height = 16.0; // 8 pixels a voxel
+    camera.view_height = 16.0; // 8 pixels per voxel
     const std::vector<float> seen = floats(view, camera, look);
     const auto at = [&](int voxel, int pixel) {
         const std::size_t x = static_cast<std::size_t>(8 * voxel + pixel);

@@ -13,9 +13,9 @@ namespace heddle::viewer {
 /// stored is voxel_range.x, the coarsest voxel_range.y.
 ///
 /// `bool voxel_at(vec3 place, int level, out vec3 axis, out float density)`: whether there is a
-/// voxel at a place in scene units; `axis` is the direction of its heaviest lobe (of a fiber's
-/// tangent or a surface's normal; unit, its sign means nothing), `density` the mean of its coverage
-/// over the three axes, in [0, 127/128]. Levels that are not there are taken for the nearest.
+/// voxel at a point in scene units. `axis` is the direction of its heaviest lobe (a fiber's tangent
+/// or a surface's normal; unit, with arbitrary sign), `density` the mean of its coverage over the
+/// three axes, in [0, 127/128]. For a level that is not stored, the nearest one is used.
 inline const std::string kVoxelTableGlsl =
     str("\n",
         glsl_constant("kVoxelLevels", kMaxVoxelLevels),
@@ -44,14 +44,14 @@ layout(std430, binding = 12) readonly buffer VoxelColors { uint voxel_colors[]; 
 // axis y and z, material, flags
 layout(std430, binding = 13) readonly buffer VoxelAxes { uint voxel_axes[]; };
 
-// All indices count from the corner of the level's table.
+// All indices are relative to the corner of the level's table.
 int voxel_cell(int level, ivec3 cell) {
     ivec4 cells = voxel_levels[level].cells;
     if (any(lessThan(cell, ivec3(0))) || any(greaterThanEqual(cell, cells.xyz))) return -1;
     return voxel_cells[cells.w + (cell.x * cells.y + cell.y) * cells.z + cell.z];
 }
 
-// Where its kVoxelLeafWords start in voxel_leaves; negative: empty.
+// The index of its first of kVoxelLeafWords words in voxel_leaves; negative: empty.
 int voxel_leaf(int cell, ivec3 leaf) {
     const int bits = kVoxelCellShift - 3;
     ivec3 i = leaf & ((1 << bits) - 1);

@@ -22,7 +22,7 @@ constexpr std::uint32_t kFirstStorage = 8;
 constexpr std::uint32_t kLevelsUniform = 8;
 constexpr std::size_t kBatchWords = 1 << 18; ///< words that are written at once
 
-/// How often a level's edges double those of the finest.
+/// How often the edges of a level double those of the finest.
 int doublings(Vec3d finest, Vec3d edges) {
     const int out = static_cast<int>(std::lround(std::log2(edges.x / finest.x)));
     for (int a = 0; a < 3; ++a) {
@@ -90,11 +90,11 @@ private:
     std::vector<std::uint32_t> batch_;
 };
 
-/// The tiles of a table, which shaders call cells, in the box that holds them all.
+/// The tiles of a table, which shaders call cells, in their bounding box.
 struct CellBox {
     Vec3i lo;                         ///< index of the first cell
-    Vec3i size;                       ///< cells
-    std::vector<std::uint32_t> tiles; ///< their numbers, z fastest; kNone where a cell is empty
+    Vec3i size;                       ///< number of cells
+    std::vector<std::uint32_t> tiles; ///< numbers of the tiles, z fastest; kNone for an empty cell
 
     explicit CellBox(const Table& table) {
         IndexBox box;
@@ -110,7 +110,7 @@ struct CellBox {
     }
 };
 
-/// Writes tables one behind the other; all numbers in them count from the first.
+/// Writes tables in sequence; all numbers in them count from the first table.
 struct Writer {
     std::array<Words, 6> to; ///< cells, leaf table, leaves, words of voxels
 
@@ -121,7 +121,7 @@ struct Writer {
             to[0].push(tile == Table::kNone ? tile : tile + first_cell);
         for (const std::uint32_t leaf : scene.table().leaves_by_tile())
             to[1].push(leaf == Table::kNone ? 0 : leaf + 1 + first_leaf);
-        std::vector<std::uint32_t> first; // voxel of each block
+        std::vector<std::uint32_t> first; // first voxel of each block
         std::uint32_t count = to[3].count();
         for (const std::vector<preview::PreviewVoxel>& block : scene.voxels_by_block()) {
             first.push_back(count);

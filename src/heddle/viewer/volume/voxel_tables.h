@@ -13,13 +13,13 @@
 
 namespace heddle::viewer {
 
-/// The levels by pointer, for what takes them from anywhere.
+/// Pointers to the levels, for functions that take levels of any origin.
 [[nodiscard]] std::vector<const VoxelLevel*> sources_of(const VoxelLevels& levels);
 
-/// All levels of a volume in the driver's memory, each as preview::PreviewVolume has one: 12 bytes a voxel,
-/// and the tiles of the scene's LeafTable, by which kVoxelTableGlsl finds leaves. The tiles stand in
-/// a box of cells where a shader reads one word: in a hash table all lanes of a wave would wait for
-/// the one whose search takes longest. Needs a current Context while it lives.
+/// All levels of a volume in the driver's memory, each like a preview::PreviewVolume: 12 bytes per
+/// voxel, and the tiles of the LeafTable, by which kVoxelTableGlsl finds leaves. Tiles are in a box
+/// of cells, where a shader reads one word: in a hash table all lanes of a wave would wait for the
+/// longest search. Needs a current Context while it lives.
 class VoxelTables {
 public:
     /// Predicts the bytes before any are allocated. If they exceed a storage block, the finest

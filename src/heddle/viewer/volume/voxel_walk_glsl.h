@@ -48,9 +48,9 @@ inline const std::string kVoxelWalkGlsl = str("\n",
                                               glsl_constant("kClosing", preview::kClosing),
                                               glsl_constant("kSheetGap", preview::kSheetGap),
                                               R"(
-uniform int level_first, level_last; // that serve
-uniform float level_reach;           // a level serves pixels up to this many of its edges wide
-uniform vec3 box_lo, box_hi;         // of all voxels, from voxel_middle
+uniform int level_first, level_last; // range of levels that are used
+uniform float level_reach;           // a level is used for pixels up to this many of its edges wide
+uniform vec3 box_lo, box_hi;         // of all voxels, relative to voxel_middle
 uniform float density_scale;
 uniform ivec3 white_block;
 
