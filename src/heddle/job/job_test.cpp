@@ -130,7 +130,7 @@ TEST(InspectFile, SaysWhatIsInMemoryAndInAFile) {
               "no error");
     const TempFolder folder;
     generate_to_file({.nx = 3, .ny = 2}, folder.file("a.bcc"), silent);
-    const FileInfo file = inspect_file(folder.file("a.bcc"), {}, silent);
+    const FileInfo file = inspect_file(folder.file("a.bcc"), {.voxels = 30}, silent);
     EXPECT_EQ(file.file_bytes, file_bytes(folder.file("a.bcc")));
     EXPECT_TRUE(std::get<GeometryInfo>(file.content).curves.has_value());
 }
