@@ -114,7 +114,8 @@ TEST(SliceYarn, TheFilesHoldWhatMemoryDoes) {
 
 TEST(InspectFile, SaysWhatIsInMemoryAndInAFile) {
     Progress silent;
-    const GeometryInfo info = inspect_geometry({.geometry = test::two_yarns()}, {}, silent);
+    const GeometryInfo info =
+        inspect_geometry({.geometry = test::two_yarns()}, {.voxels = 30}, silent);
     ASSERT_TRUE(info.curves && info.plan && !info.meshes);
     EXPECT_EQ(info.curves->sum.curves, 2u);
     EXPECT_GT(info.predicted_file_bytes, 0);

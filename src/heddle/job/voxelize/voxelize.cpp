@@ -58,7 +58,8 @@ Voxelizer::~Voxelizer() = default;
 
 std::unique_ptr<LevelBuilder> Voxelizer::make_builder() const {
     const LodOptions lod = lod_options(options_.lod, options_.levels, options_.seed);
-    return lod.max_levels == 0 ? nullptr : std::make_unique<LevelBuilder>(lod);
+    if (lod.max_levels == 0 && !options_.correlation) return nullptr;
+    return std::make_unique<LevelBuilder>(lod); // it finds what level 0's neighbours share too
 }
 
 VoxelizePlan Voxelizer::plan_of(const Run& run,

@@ -53,6 +53,18 @@ TEST(VoxelizeJob, MemoryAndFileHoldTheSameVoxelsByEachBackend) {
     }
 }
 
+TEST(VoxelizeJob, AFinestLevelAloneHasItsCorrelation) {
+    const TempFolder folder;
+    Progress silent;
+    VoxelizeJobOptions options = options_of(30);
+    options.correlation = true;
+    options.levels = 0;
+    const VoxelizeReport report =
+        voxelize_to_file({.geometry = test::two_yarns()}, folder.file("a.vdb"), options, silent);
+    EXPECT_EQ(report.counts.levels, 1);
+    EXPECT_TRUE(read_levels(folder.file("a.vdb"))[0]->info().fields.correlation);
+}
+
 TEST(VoxelizeJob, APlanPredictsAndWritesNothing) {
     Progress silent;
     const VoxelizeReport plan =
@@ -62,10 +74,12 @@ TEST(VoxelizeJob, APlanPredictsAndWritesNothing) {
     EXPECT_EQ(plan.counts.voxels, 0);
     VoxelizeJobOptions filled;
     filled.fill_memory = true;
-    filled.memory_bytes = std::int64_t{80} << 20;
-    const VoxelizeReport fits = plan_voxelize({.geometry = test::two_yarns()}, filled, silent);
+    filled.memory_bytes = std::int64_t{64} << 20;
+    const GeometryInput thin{.geometry = test::two_yarns(), .options = {.yarn_radius = 0.01}};
+    const VoxelizeReport fits = plan_voxelize(thin, filled, silent);
     EXPECT_LE(fits.plan.peak_bytes, filled.memory_bytes);
-    EXPECT_GT(fits.plan.voxels, plan.plan.voxels);
+    EXPECT_FALSE(fits.plan.spool);
+    EXPECT_GT(fits.plan.voxels, 1000);
 }
 
 TEST(VoxelizeJob, NotesAreToldAndKept) {
