@@ -6,6 +6,7 @@
 #include <heddle/base/error.h>
 #include <heddle/geom/generate.h>
 #include <heddle/io/curve/curve_files.h>
+#include <heddle/io/gltf/read_gltf.h>
 #include <heddle/io/mesh/read_mesh.h>
 #include <heddle/io/vdb/read_vdb.h>
 #include <heddle/io/vdb/write_vdb.h>

@@ -8,9 +8,9 @@ if(NOT HEDDLE_PRECOMPILE OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
 endif()
 set(_flags -fpch-preprocess) # for ccache
 if(CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  # false for std::string::insert, as -Wrestrict is (GCC bug 105651): out of a precompiled header, system headers
-  # are warned of too
-  list(APPEND _flags -Wno-stringop-overflow)
+  # false for std::string::insert, as -Wrestrict is (GCC bug 105651): g++ warns of system headers too where they are
+  # precompiled
+  list(APPEND _flags -Wno-stringop-overflow -Wno-array-bounds)
 endif()
 set(_common <heddle/base/error.h> <heddle/base/vec.h> <algorithm> <array> <atomic> <bit> <chrono> <cmath>
   <cstddef> <cstdint> <cstring> <filesystem> <functional> <limits> <map> <memory> <mutex> <optional> <set>

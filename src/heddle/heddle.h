@@ -21,7 +21,7 @@
 #if __has_include(<heddle/io/vdb/write_vdb.h>)
 #include <heddle/io/geometry/apply_yarn.h>
 #include <heddle/io/geometry/read_geometry.h>
-#include <heddle/io/mesh/write_glb.h>
+#include <heddle/io/gltf/write_glb.h>
 #include <heddle/io/vdb/read_vdb.h>
 #include <heddle/io/vdb/write_vdb.h>
 #include <heddle/job/edit_materials.h>

@@ -3,7 +3,7 @@
 #include <heddle/base/format_number.h>
 #include <heddle/base/memory.h>
 #include <heddle/io/curve/curve_files.h>
-#include <heddle/io/mesh/write_glb.h>
+#include <heddle/io/gltf/write_glb.h>
 #include <heddle/job/output_place.h>
 
 namespace heddle::job {

@@ -7,8 +7,8 @@
 
 namespace heddle::window {
 
-/// run_window() that calls `shown(n)` after frame n, counted from 1 over all contexts. What it throws
-/// is taken for what the frame threw.
+/// run_window() that calls `shown(n)` after frame n, counted from 1 over all contexts. An exception
+/// of `shown` acts like one of the frame.
 [[nodiscard]] WindowCounts run_watched_window(const viewer::ViewedObject& subject,
                                               const viewer::Settings& settings,
                                               const WindowOptions& options,

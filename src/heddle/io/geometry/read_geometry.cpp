@@ -2,6 +2,7 @@
 
 #include <heddle/base/error.h>
 #include <heddle/io/file/input_file.h>
+#include <heddle/io/gltf/read_gltf.h>
 #include <heddle/io/mesh/read_mesh.h>
 
 namespace heddle {

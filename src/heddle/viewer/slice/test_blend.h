@@ -16,8 +16,8 @@
 #include <utility>
 #include <vector>
 
-// What SliceRenderer draws without shadows, in double precision on the CPU; docs/raster.md describes
-// it.
+// What SliceRenderer draws without shadows, in double precision on the CPU; docs/raster.md
+// describes it.
 
 namespace heddle::viewer::test {
 

@@ -1,4 +1,5 @@
 #include <heddle/geom/bounds.h>
+#include <heddle/io/gltf/read_gltf.h>
 #include <heddle/io/mesh/read_mesh.h>
 #include <heddle/io/mesh/tangents.h>
 #include <heddle/io/mesh/test_files.h>

@@ -1,4 +1,4 @@
-#include <heddle/io/mesh/gltf_material.h>
+#include <heddle/io/gltf/gltf_material.h>
 
 #include <heddle/base/error.h>
 #include <heddle/io/image/image.h>

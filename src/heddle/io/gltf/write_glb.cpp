@@ -1,4 +1,4 @@
-#include <heddle/io/mesh/write_glb.h>
+#include <heddle/io/gltf/write_glb.h>
 
 #include <heddle/base/error.h>
 #include <heddle/geom/bounds.h>

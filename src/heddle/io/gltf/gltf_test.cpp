@@ -1,8 +1,8 @@
-#include <heddle/io/mesh/read_mesh.h>
+#include <heddle/io/gltf/read_gltf.h>
 
+#include <heddle/io/gltf/write_glb.h>
 #include <heddle/io/image/image.h>
 #include <heddle/io/mesh/test_files.h>
-#include <heddle/io/mesh/write_glb.h>
 
 #include <nlohmann/json.hpp>
 

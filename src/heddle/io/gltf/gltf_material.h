@@ -1,7 +1,7 @@
 #pragma once
 
 #include <heddle/geom/geometry.h>
-#include <heddle/io/mesh/gltf_model.h>
+#include <heddle/io/gltf/gltf_model.h>
 
 #include <map>
 #include <tuple>

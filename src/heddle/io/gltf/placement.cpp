@@ -1,4 +1,4 @@
-#include <heddle/io/mesh/placement.h>
+#include <heddle/io/gltf/placement.h>
 
 #include <cmath>
 

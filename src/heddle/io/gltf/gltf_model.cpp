@@ -1,4 +1,4 @@
-#include <heddle/io/mesh/gltf_model.h>
+#include <heddle/io/gltf/gltf_model.h>
 
 #include <heddle/base/error.h>
 #include <heddle/io/file/input_file.h>

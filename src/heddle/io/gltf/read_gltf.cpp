@@ -1,10 +1,10 @@
-#include <heddle/io/mesh/read_mesh.h>
+#include <heddle/io/gltf/read_gltf.h>
 
 #include <heddle/base/error.h>
 #include <heddle/base/memory.h>
-#include <heddle/io/mesh/gltf_material.h>
-#include <heddle/io/mesh/gltf_model.h>
-#include <heddle/io/mesh/placement.h>
+#include <heddle/io/gltf/gltf_material.h>
+#include <heddle/io/gltf/gltf_model.h>
+#include <heddle/io/gltf/placement.h>
 #include <heddle/io/mesh/tangents.h>
 
 #include <algorithm>
