@@ -261,11 +261,12 @@ VolVolume read_vol(const VolLayout& layout, const VolOptions& options, Progress&
     VolVolume out;
     out.notes.push_back(note_move(layout, origin));
     if (!given) {
-        out.notes.push_back(str("density scale ", scale, ": density 1 covers 86 % of a voxel's ",
-                                "face; give a scene's 'scale' as --density-scale"));
+        out.notes.push_back(str(
+            "density scale ", scale,
+            ": density 1 covers 86 % of a voxel's face; give a scene's 'scale' as --density-scale"));
     }
     if (!layout.orientation_encoding) {
-        out.notes.push_back(
+        out.notes.emplace_back(
             "no directions: all voxels are isotropic; name their file with --orientation");
     } else if (counts.isotropic > 0) {
         out.notes.push_back(str(counts.isotropic, " of ", counts.voxels,
