@@ -88,7 +88,7 @@ TEST(DeviceVoxelizer, MoreMaterialsThanMergeAtOnceAreTheCpus) {
     Geometry g;
     g.name = "bundle";
     for (std::uint32_t m = 0; m < 90; ++m) {
-        g.materials.emplace_back();
+        g.materials.emplace_back().kind = MaterialKind::Fiber;
         CurveSet set;
         set.basis = Basis::Linear;
         set.material = m;
