@@ -1,5 +1,5 @@
-# heddle::heddle: all installed rooms at once. With HEDDLE_SHARED it is one libheddle.so of all rooms' objects; without it, a
-# name for the static rooms. The heddle command and the tests link the static rooms in both cases.
+# heddle::heddle: all installed rooms at once. With HEDDLE_SHARED it is one libheddle.so of all rooms' objects; without it,
+# a name for the static rooms. The heddle command and the tests link the static rooms in both cases.
 get_property(HEDDLE_ROOMS GLOBAL PROPERTY HEDDLE_ROOMS)
 get_property(HEDDLE_HEADERS GLOBAL PROPERTY HEDDLE_HEADERS)
 get_property(HEDDLE_FOREIGN GLOBAL PROPERTY HEDDLE_FOREIGN)
