@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""Draws the rooms of cmake/layers.txt as an SVG: python3 tools/draw_rooms.py [--check] [docs/images/rooms.svg].
+"""Draws the rooms of cmake/layers.txt as an SVG: python3 tools/draw_rooms.py [--check]
+[docs/images/rooms.svg].
 
-A room stands below all rooms that it may include. A line joins it to those that no other line leads to. The colours are the
-groups of the table. With --check nothing is written: the exit code says whether the file is what would be written.
+A room stands below all rooms that it may include. A line joins it to those that no other line leads
+to. The colours are the groups of the table. With --check nothing is written: the exit code says
+whether the file is what would be written.
 """
 import argparse
 import pathlib
@@ -15,7 +17,8 @@ COLORS = ["#cfe3f7", "#d9efd0", "#fde8b8", "#f6d0d8", "#d3eeee", "#e2d6f3", "#d8
 
 
 def read_table(path):
-    """Returns {room: rooms that it may include}, {room: number of its group} and the names of the groups."""
+    """Returns {room: rooms that it may include}, {room: number of its group} and the names of the
+    groups."""
     below, group_of, groups, comment = {}, {}, [], ""
     for line in path.read_text().splitlines():
         if line.startswith("#"):
@@ -43,7 +46,8 @@ def reduce_edges(below):
 
 
 def place_in_rows(below):
-    """Returns rows of nodes, top down, and the pairs of nodes in neighbouring rows that a line joins.
+    """Returns rows of nodes, top down, and the pairs of nodes in neighbouring rows that a line
+    joins.
 
     A node is a room, or a tuple where a line passes through a row.
     """
@@ -89,7 +93,8 @@ def spread(row, wanted):
 
 
 def neighbours_of(pieces):
-    """Returns the nodes that lines join each node to in the row above it, and in the row below it."""
+    """Returns the nodes that lines join each node to in the row above it, and in the row below
+    it."""
     above, below = {}, {}
     for high, low in pieces:
         above.setdefault(low, []).append(high)
@@ -101,11 +106,13 @@ def count_crossings(rows, pieces):
     place = {node: i for row in rows for i, node in enumerate(row)}
     row_of = {node: i for i, row in enumerate(rows) for node in row}
     lines = [(row_of[high], place[high], place[low]) for high, low in pieces]
-    return sum(a[0] == b[0] and (a[1] - b[1]) * (a[2] - b[2]) < 0 for i, a in enumerate(lines) for b in lines[:i])
+    return sum(a[0] == b[0] and (a[1] - b[1]) * (a[2] - b[2]) < 0 for i, a in enumerate(lines)
+               for b in lines[:i])
 
 
 def order_rows(rows, pieces):
-    """Sorts each row by the mean place of the nodes above, then below, and so on; returns the order with fewest crossings."""
+    """Sorts each row by the mean place of the nodes above, then below, and so on; returns the order
+    with fewest crossings."""
     above, below = neighbours_of(pieces)
     best, fewest = rows, count_crossings(rows, pieces)
     for sweep in range(ORDER_SWEEPS):
@@ -124,15 +131,18 @@ def order_rows(rows, pieces):
 
 
 def straighten(rows, pieces):
-    """Returns each node's x: near to its neighbours', and nearest where a line only passes, so that long lines are straight."""
+    """Returns each node's x: near to its neighbours', and nearest where a line only passes, so that
+    long lines are straight."""
     above, below = neighbours_of(pieces)
     x = {node: place for row in rows for node, place in zip(row, offsets(row))}
     for _ in range(STRAIGHTEN_SWEEPS):
-        middle = sum(x.values()) / len(x)  # pulls a little, so that parts with few lines do not drift away
+        middle = sum(x.values()) / len(
+            x)  # pulls a little, so that parts with few lines do not drift away
         for row in rows + rows[::-1]:
             wanted = {}
             for node in row:
-                near = [(x[n], 1 if isinstance(n, str) else 30) for n in above.get(node, []) + below.get(node, [])]
+                near = [(x[n], 1 if isinstance(n, str) else 30)
+                        for n in above.get(node, []) + below.get(node, [])]
                 near.append((middle, 0.3))
                 weight = sum(w for _, w in near)
                 wanted[node] = sum(place * w for place, w in near) / weight
@@ -149,36 +159,51 @@ def draw(below, group_of, groups):
     legend = MARGIN + len(rows) * ROW
     width = max(x[n] + width_of(n) // 2 for n in x) + MARGIN
     height = legend + 24 * len(groups) + MARGIN
-    out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}"'
-           ' font-family="sans-serif" font-size="12">',
-           f'<rect width="{width}" height="{height}" fill="#ffffff"/>']
+    out = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}"'
+        ' font-family="sans-serif" font-size="12">',
+        f'<rect width="{width}" height="{height}" fill="#ffffff"/>'
+    ]
     for high, low in pieces:
         top, bottom, bend = y[high] + BOX_HEIGHT, y[low], ROW // 3
-        out.append(f'<path d="M{x[high]} {top}C{x[high]} {top + bend} {x[low]} {bottom - bend} {x[low]} {bottom}"'
-                   ' fill="none" stroke="#7a8794" stroke-width="1.3"/>')
+        out.append(
+            f'<path d="M{x[high]} {top}C{x[high]} {top + bend} {x[low]} {bottom - bend} {x[low]} {bottom}"'
+            ' fill="none" stroke="#7a8794" stroke-width="1.3"/>')
     for node in x:
         if isinstance(node, tuple):  # through the row
-            out.append(f'<path d="M{x[node]} {y[node]}v{BOX_HEIGHT}" stroke="#7a8794" stroke-width="1.3"/>')
+            out.append(
+                f'<path d="M{x[node]} {y[node]}v{BOX_HEIGHT}" stroke="#7a8794" stroke-width="1.3"/>'
+            )
     for room, group in group_of.items():
-        out.append(f'<rect x="{x[room] - BOX_WIDTH // 2}" y="{y[room]}" width="{BOX_WIDTH}" height="{BOX_HEIGHT}" rx="4"'
-                   f' fill="{COLORS[group]}" stroke="#4a5560"/>')
+        out.append(
+            f'<rect x="{x[room] - BOX_WIDTH // 2}" y="{y[room]}" width="{BOX_WIDTH}" height="{BOX_HEIGHT}" rx="4"'
+            f' fill="{COLORS[group]}" stroke="#4a5560"/>')
         out.append(f'<text x="{x[room]}" y="{y[room] + 17}" text-anchor="middle">{room}</text>')
     for i, name in enumerate(groups):
-        out.append(f'<rect x="{MARGIN}" y="{legend + 24 * i}" width="22" height="16" rx="3" fill="{COLORS[i]}" stroke="#4a5560"/>')
+        out.append(
+            f'<rect x="{MARGIN}" y="{legend + 24 * i}" width="22" height="16" rx="3" fill="{COLORS[i]}" stroke="#4a5560"/>'
+        )
         out.append(f'<text x="{MARGIN + 30}" y="{legend + 24 * i + 13}">{name}</text>')
     return "\n".join(out) + "\n</svg>\n"
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("picture", nargs="?", type=pathlib.Path, default=ROOT / "docs/images/rooms.svg")
-    parser.add_argument("--check", action="store_true", help="only compare with the picture that is there")
+    parser.add_argument("picture",
+                        nargs="?",
+                        type=pathlib.Path,
+                        default=ROOT / "docs/images/rooms.svg")
+    parser.add_argument("--check",
+                        action="store_true",
+                        help="only compare with the picture that is there")
     arguments = parser.parse_args()
     text = draw(*read_table(ROOT / "cmake/layers.txt"))
     if not arguments.check:
         arguments.picture.write_text(text)
     elif not arguments.picture.exists() or arguments.picture.read_text() != text:
-        sys.exit(f"{arguments.picture}: not what cmake/layers.txt gives; run python3 tools/draw_rooms.py")
+        sys.exit(
+            f"{arguments.picture}: not what cmake/layers.txt gives; run python3 tools/draw_rooms.py"
+        )
 
 
 if __name__ == "__main__":

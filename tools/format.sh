@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Formats the sources in place, and names the lines that pass 100 columns, which are wrapped by hand;
-# with --check it changes nothing. Fails where a line is too long, or with --check where a file differs.
+# Formats the sources in place, and names the lines that pass 100 columns, which are wrapped by
+# hand; with --check it changes nothing. Fails where a line is too long, or with --check where a
+# file differs.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 mode=-i
