@@ -16,7 +16,8 @@ picture() {
   local name=$1 sheet=$2 file=$3 look=$4
   shift 4
   echo "heddle voxelize ${file#"$data"/} -o $name.vdb $*" >>"$out/commands.txt"
-  "$heddle" voxelize "$file" -o "$out/$name.vdb" --quiet "$@" || { echo "failed: $name" >&2; return; }
+  "$heddle" voxelize "$file" -o "$out/$name.vdb" --quiet "$@" ||
+      { echo "failed: $name" >&2; return; }
   # shellcheck disable=SC2086 # options are words
   "$heddle" preview "$out/$name.vdb" -o "$out/$sheet-$name.png" --size 640x640 --quiet $look
   rm "$out/$name.vdb"
@@ -26,7 +27,8 @@ yarn=$data/yarn
 for f in cable_work_pattern flame_ribbing_pattern sweater_flame_ribbing tea_cozy; do
   picture $f yarn "$yarn/bcc/$f.bcc" "" --yarn cotton --voxels 640
 done
-for f in glove knittubeinit; do picture $f yarn "$yarn/bcc-modified/$f.bcc" "" --yarn wool --voxels 512; done
+for f in glove knittubeinit; do picture $f yarn "$yarn/bcc-modified/$f.bcc" "" --yarn wool \
+    --voxels 512; done
 for f in basket cartridge_belt_rib satin stockinette stockinette_small; do
   picture $f yarn "$yarn/patterns/$f.pyp" "" --yarn cotton --repeat 3,3 --voxels 512
 done
@@ -36,8 +38,10 @@ for fit in cotton1 rayon1 silk1; do # a close-up of a piece, which shows plies a
     --voxel-size 0.012 --bounds -1.5,-1.5,-5,1.5,1.5,5
 done
 picture straight hair "$data/hair/straight.hair" "" --voxels 512
-picture bangs_hair hair "$data/hair/ct2hair/Bangs_100.hair" "--color tangent" --yarn-radius 0.1 --voxels 512
-picture bangs_data hair "$data/hair/ct2hair/Bangs_100.data" "--color tangent" --yarn-radius 0.1 --voxels 512
+picture bangs_hair hair "$data/hair/ct2hair/Bangs_100.hair" "--color tangent" --yarn-radius 0.1 \
+    --voxels 512
+picture bangs_data hair "$data/hair/ct2hair/Bangs_100.data" "--color tangent" --yarn-radius 0.1 \
+    --voxels 512
 picture harolongo hair "$data/hair/digital-salon/harolongo.data" "--color tangent" --voxels 512
 for f in "$data"/mesh/*.glb "$data"/mesh/*/*.gltf "$data"/mesh/*.obj; do
   look=""

@@ -28,13 +28,20 @@ SCENES = {
     "smallpine": ("mesh/smallpine/scene.gltf", ["--voxels", 512], "", ""),
     "helmet": ("mesh/DamagedHelmet.glb", ["--voxels", 512], "", ""),
     "lamp": ("mesh/AnisotropyBarnLamp/AnisotropyBarnLamp.gltf", ["--voxels", 768], "", ""),
-    "plain": (["plain", "--counts", "24,24"], ["--voxels", 1024, "--yarn", "cotton"], "yarn = \"cotton\"\n" + ALL, FIBER.format("[0.9, 0.6, 0.3]") + GRAZING),
-    "satin": (["satin", "--counts", "24,24"], ["--voxels", 1024, "--yarn", "silk"], "yarn = \"silk\"\n" + ALL,
+    "plain": (["plain", "--counts", "24,24"], ["--voxels", 1024, "--yarn",
+                                               "cotton"], "yarn = \"cotton\"\n" + ALL,
+              FIBER.format("[0.9, 0.6, 0.3]") + GRAZING),
+    "satin": (["satin", "--counts", "24,24"], ["--voxels", 1024, "--yarn",
+                                               "silk"], "yarn = \"silk\"\n" + ALL,
               FIBER.format("[0.5, 0.6, 0.95]") + GRAZING),
-    "sweater": ("yarn/bcc/sweater_flame_ribbing.bcc", ["--voxels", 1024, "--yarn", COTTON1], f"yarn = \"{COTTON1}\"\n" + ALL + "".join(
-        f"[[object.it.instance]]\ntranslate = {list(at)}\n" for at in ((-30, 0, 0), (100, 10, -580), (240, 260, -2400))),
-        FIBER.format("[0.95, 0.75, 0.5]") + protocol.camera_text([0, 10, 200], [0, 0, 0], (0, 1, 0), 30.0) +
-        "[[light]]\nkind = \"constant\"\ncolor = [0.35, 0.4, 0.5]\n" + protocol.sun_text([0.5, -0.5, -0.7], 4.0)),
+    "sweater": ("yarn/bcc/sweater_flame_ribbing.bcc", ["--voxels", 1024, "--yarn",
+                                                       COTTON1], f"yarn = \"{COTTON1}\"\n" + ALL +
+                "".join(f"[[object.it.instance]]\ntranslate = {list(at)}\n"
+                        for at in ((-30, 0, 0), (100, 10, -580), (240, 260, -2400))),
+                FIBER.format("[0.95, 0.75, 0.5]") + protocol.camera_text([0, 10, 200], [0, 0, 0],
+                                                                         (0, 1, 0), 30.0) +
+                "[[light]]\nkind = \"constant\"\ncolor = [0.35, 0.4, 0.5]\n" +
+                protocol.sun_text([0.5, -0.5, -0.7], 4.0)),
 }
 
 
@@ -63,23 +70,31 @@ def pictures(folder, name, a):
     made(volume, "voxelize", path, *options)
     scene = os.path.join(folder, f"{name}.toml")
     with open(scene, "w") as file:
-        file.write(f"{more}[object.it]\nvolume = \"{volume}\"\n" + (f"geometry = \"{geometry}\"\n" if geometry else "") + keys)
+        file.write(f"{more}[object.it]\nvolume = \"{volume}\"\n" +
+                   (f"geometry = \"{geometry}\"\n" if geometry else "") + keys)
     out = []
     for kind in ("volume", "traced"):
         picture = os.path.join(folder, f"{name}_{kind}.png")
         if kind == "traced" and (a.no_traced or not geometry):
             out.append(None)
             continue
-        r = heddle("render", scene, "-o", picture, "--size", f"{a.size}x{a.size}", "--samples", a.samples, *(["--geometry"] if kind == "traced" else []))
-        print(f"{name} {kind}: {r['render_seconds']:.0f} s, scene {r['scene_memory_bytes'] / 2**20:.0f} MiB", flush=True)
+        r = heddle("render", scene, "-o", picture, "--size", f"{a.size}x{a.size}", "--samples",
+                   a.samples, *(["--geometry"] if kind == "traced" else []))
+        print(
+            f"{name} {kind}: {r['render_seconds']:.0f} s, scene {r['scene_memory_bytes'] / 2**20:.0f} MiB",
+            flush=True)
         out.append(picture)
     return out
 
 
 def main():
-    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments = argparse.ArgumentParser(description=__doc__,
+                                        formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("-o", "--output", default=os.path.join(protocol.ROOT, "build/gallery"))
-    arguments.add_argument("--scene", nargs="+", choices=list(SCENES), default=[s for s in SCENES if s != "sweater"])
+    arguments.add_argument("--scene",
+                           nargs="+",
+                           choices=list(SCENES),
+                           default=[s for s in SCENES if s != "sweater"])
     arguments.add_argument("--size", type=int, default=384)
     arguments.add_argument("--samples", type=int, default=64)
     arguments.add_argument("--no-traced", action="store_true")
@@ -92,7 +107,9 @@ def main():
     for i, row in enumerate(rows):
         for j, picture in enumerate(row):
             if picture:
-                sheet.paste(Image.open(picture).convert("RGB"), ((2 * (i % 2) + j) * a.size, i // 2 * a.size))
+                sheet.paste(
+                    Image.open(picture).convert("RGB"),
+                    ((2 * (i % 2) + j) * a.size, i // 2 * a.size))
     sheet.save(os.path.join(folder, "gallery.png"))
 
 

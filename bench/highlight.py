@@ -26,7 +26,9 @@ def write_hair(path):
     draw = random.Random(1)
     strands = [(4 * (i + draw.random()) / 1200 - 2, 0.02 * draw.random()) for i in range(1200)]
     with open(path, "wb") as file:
-        file.write(struct.pack("<4sIIIIfffff88s", b"HAIR", len(strands), 9 * len(strands), 2, 8, 0.008, 0.0, 0.5, 0.4, 0.3, b""))
+        file.write(
+            struct.pack("<4sIIIIfffff88s", b"HAIR", len(strands), 9 * len(strands), 2, 8, 0.008,
+                        0.0, 0.5, 0.4, 0.3, b""))
         for x, z in strands:
             for k in range(9):
                 file.write(struct.pack("<fff", x, k / 2 - 2, z))
@@ -35,8 +37,10 @@ def write_hair(path):
 def scene_text(path, volume, middle, distance, material):
     lean = math.sqrt(0.5)
     eye = [middle[0], middle[1] - lean * distance, middle[2] + lean * distance]
-    text = protocol.camera_text(eye, middle, (0, 0, 1), ANGLE) + protocol.sun_text([0.0, -lean, -lean], 3.0)
-    return text + material + f"[object.it]\nvolume = \"{volume}\"\ngeometry = \"{path}\"\n" + ("materials = { \"*\" = \"hair\" }\n" if material else "")
+    text = protocol.camera_text(eye, middle,
+                                (0, 0, 1), ANGLE) + protocol.sun_text([0.0, -lean, -lean], 3.0)
+    return text + material + f"[object.it]\nvolume = \"{volume}\"\ngeometry = \"{path}\"\n" + (
+        "materials = { \"*\" = \"hair\" }\n" if material else "")
 
 
 def half_width(profile):
@@ -51,7 +55,8 @@ def half_width(profile):
         while 0 <= i + step < len(p) and p[i + step] > half:
             i += step
         j = min(max(i + step, 0), len(p) - 1)
-        ends.append(i + step * (float(p[i]) - half) / max(float(p[i] - p[j]), 1e-9) if j != i else i)
+        ends.append(i + step *
+                    (float(p[i]) - half) / max(float(p[i] - p[j]), 1e-9) if j != i else i)
     return 0.5 * (ends[0] + ends[1]), ends[1] - ends[0]
 
 
@@ -71,7 +76,8 @@ def shape(picture):
 
 
 def main():
-    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments = argparse.ArgumentParser(description=__doc__,
+                                        formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("-o", "--output", default=os.path.join(protocol.ROOT, "build/highlight"))
     arguments.add_argument("--voxels", type=int, default=256)
     arguments.add_argument("--level", nargs="+", type=int, default=[0, 1, 2, 3, 4, 5])
@@ -83,8 +89,12 @@ def main():
     plate, hair = os.path.join(folder, "plate.glb"), os.path.join(folder, "sheet.hair")
     made(plate, "generate", "brushed", "--counts", "256,256")
     write_hair(hair)
-    print(protocol.head("Highlights by level") + "| scene | level | across: centre | width | along: centre | width | mean / traced |\n" + "|---" * 7 + "|")
-    for name, path, centre, distance, material in (("plate", plate, [1.28, 1.28, 0.0], 2.2, ""), ("hair", hair, [0.0, 0.0, 0.01], 3.0, HAIR)):
+    print(
+        protocol.head("Highlights by level") +
+        "| scene | level | across: centre | width | along: centre | width | mean / traced |\n" +
+        "|---" * 7 + "|")
+    for name, path, centre, distance, material in (("plate", plate, [1.28, 1.28, 0.0], 2.2, ""),
+                                                   ("hair", hair, [0.0, 0.0, 0.01], 3.0, HAIR)):
         volume = os.path.join(folder, f"{name}.vdb")
         made(volume, "voxelize", path, "--voxels", a.voxels)
         scene = os.path.join(folder, f"{name}.toml")
@@ -94,10 +104,13 @@ def main():
         for level in ["traced", *a.level]:
             out = os.path.join(folder, f"{name}_{level}.exr")
             how = ["--geometry"] if level == "traced" else ["--level", level]
-            heddle("render", scene, "-o", out, "--size", f"{SIZE}x{SIZE}", "--samples", a.samples, *how)
+            heddle("render", scene, "-o", out, "--size", f"{SIZE}x{SIZE}", "--samples", a.samples,
+                   *how)
             (ac, aw, lc, lw), mean = shape(out)
             traced = traced or mean
-            print(f"| {name} | {level} | {ac:+.1f} | {aw:.1f} | {lc:+.1f} | {lw:.1f} | {mean / traced:.2f} |", flush=True)
+            print(
+                f"| {name} | {level} | {ac:+.1f} | {aw:.1f} | {lc:+.1f} | {lw:.1f} | {mean / traced:.2f} |",
+                flush=True)
 
 
 if __name__ == "__main__":

@@ -11,9 +11,11 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 rows=()
 for method in moments single naive random interpolate; do
-    "$heddle" lod "$volume" --lod $method --quiet -o "$work/y.vdb" 2>"$work/words" || { cat "$work/words" >&2; exit 1; }
+    "$heddle" lod "$volume" --lod $method --quiet -o "$work/y.vdb" 2>"$work/words" ||
+        { cat "$work/words" >&2; exit 1; }
     for level in 0 1 2 3 4 5; do
-        "$heddle" preview "$work/y.vdb" --level $level --color "$color" --size 300x300 --quiet -o "$work/$level.png"
+        "$heddle" preview "$work/y.vdb" --level $level --color "$color" --size 300x300 \
+            --quiet -o "$work/$level.png"
     done
     convert "$work"/[0-5].png +append "$work/$method.png"
     rows+=("$work/$method.png")

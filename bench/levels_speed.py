@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Speed, memory and size of the levels of detail that `heddle voxelize` builds, as a markdown table.
+"""Speed, memory and size of the levels of detail that `heddle voxelize` builds, as a markdown
+table.
 
 usage: bench/levels_speed.py [--quick]
 The sweater at 1024 and 2048 voxels, straight hair, generated cloth of solid yarn from 1 M to 50 M
@@ -38,8 +39,10 @@ def row(name, result, path):
     predicted = result.get("predicted_peak_memory_bytes")
     off = f"{predicted / peak - 1:+.0%}" if predicted else "-"
     voxels = levels[0]["voxels"]
-    print(f"| {name} | {voxels / 1e6:.2f} | {len(levels)} | {seconds:.2f} | {voxels / seconds / 1e6:.1f} | "
-          f"{seconds / voxels * 1e9:.0f} | {share} | {sum(sizes) / sizes[0]:.2f} | {peak / 1048576:.0f} | {off} |")
+    print(
+        f"| {name} | {voxels / 1e6:.2f} | {len(levels)} | {seconds:.2f} | {voxels / seconds / 1e6:.1f} | "
+        f"{seconds / voxels * 1e9:.0f} | {share} | {sum(sizes) / sizes[0]:.2f} | {peak / 1048576:.0f} | {off} |"
+    )
     sys.stdout.flush()
     os.remove(path)
 
@@ -48,16 +51,17 @@ def main():
     arguments = argparse.ArgumentParser()
     arguments.add_argument("--quick", action="store_true", help="small sizes only")
     quick = arguments.parse_args().quick
-    print("| input | M voxels of level 0 | levels | seconds | M voxels/s | ns a voxel | of the voxelizing | "
-          "file / level 0 | peak MiB | predicted |")
+    print(
+        "| input | M voxels of level 0 | levels | seconds | M voxels/s | ns a voxel | of the voxelizing | "
+        "file / level 0 | peak MiB | predicted |")
     print("|---|---|---|---|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory(dir=os.environ.get("TMPDIR")) as folder:
         out = os.path.join(folder, "out.vdb")
         sweater = os.path.join(DATA, "yarn/bcc/sweater_flame_ribbing.bcc")
         if os.path.exists(sweater):
             for voxels in (512,) if quick else (1024, 2048):
-                result = heddle("voxelize", sweater, "-o", out, "--yarn", "silk", "--yarn-radius", "0.1",
-                                "--fibers", "150", "--voxels", str(voxels))
+                result = heddle("voxelize", sweater, "-o", out, "--yarn", "silk", "--yarn-radius",
+                                "0.1", "--fibers", "150", "--voxels", str(voxels))
                 row(f"sweater, 150 fibers, {voxels}", result, out)
             result = heddle("voxelize", os.path.join(DATA, "hair/straight.hair"), "-o", out)
             row("straight hair, 512", result, out)

@@ -50,7 +50,8 @@ def render_mitsuba(scene_xml, variant, runs):
 
 
 def heddle(*words):
-    out = subprocess.run([HEDDLE, *map(str, words), "--json"], check=True, capture_output=True).stdout
+    out = subprocess.run([HEDDLE, *map(str, words), "--json"], check=True,
+                         capture_output=True).stdout
     return json.loads(out)
 
 
@@ -86,7 +87,8 @@ volume = "{vdb}"
 
 
 def render_heddle(toml, size, spp, out, seed=0):
-    result = heddle("render", toml, "-o", out, "--size", f"{size}x{size}", "--samples", spp, "--seed", seed)
+    result = heddle("render", toml, "-o", out, "--size", f"{size}x{size}", "--samples", spp,
+                    "--seed", seed)
     return result["rate"], result["peak_memory_bytes"] / 1048576
 
 
@@ -111,7 +113,8 @@ def read_exr(path):
 def flip(a, b):
     import flip_evaluator
     import numpy as np
-    srgb = lambda x: np.clip(np.where(x < .0031308, 12.92 * x, 1.055 * np.clip(x, 0, 1) ** (1 / 2.4) - .055), 0, 1)
+    srgb = lambda x: np.clip(
+        np.where(x < .0031308, 12.92 * x, 1.055 * np.clip(x, 0, 1)**(1 / 2.4) - .055), 0, 1)
     tone = lambda x: np.ascontiguousarray(srgb(np.clip(x, 0, None)), np.float32)
     return float(flip_evaluator.evaluate(tone(a), tone(b), "LDR")[1])
 
@@ -120,9 +123,17 @@ def compare(name, folder, vdb, pad, o):
     import numpy as np
     box = heddle("export", vdb, "-o", folder, "--pad", pad)["resolution"]
     toml = write_toml(folder, vdb)
-    runs = [(o.size, o.spp, 1, "")] + [(o.picture, o.picture_spp, seed, f"{folder}/mitsuba{seed}.npy") for seed in (1, 2) if o.picture_spp]
-    out = subprocess.run([sys.executable, __file__, "--mitsuba", f"{folder}/scene.xml", "--variant", o.variant, "--runs",
-                          json.dumps(runs)], check=True, capture_output=True, text=True).stdout
+    runs = [(o.size, o.spp, 1, "")
+            ] + [(o.picture, o.picture_spp, seed, f"{folder}/mitsuba{seed}.npy")
+                 for seed in (1, 2) if o.picture_spp]
+    out = subprocess.run([
+        sys.executable, __file__, "--mitsuba", f"{folder}/scene.xml", "--variant", o.variant,
+        "--runs",
+        json.dumps(runs)
+    ],
+                         check=True,
+                         capture_output=True,
+                         text=True).stdout
     theirs = json.loads(out.splitlines()[-1])
     ours, peak = render_heddle(toml, o.size, 4 * o.spp, f"{folder}/speed.exr")
     quality = "- | - | - | -"
@@ -134,17 +145,23 @@ def compare(name, folder, vdb, pad, o):
             pictures.append(read_exr(path))
         references = [np.load(f"{folder}/mitsuba{seed}.npy") for seed in (1, 2)]
         reference = references[0]
-        seen = np.ptp(reference.reshape(-1, 3) / reference[0, 0], -1).reshape(reference.shape[:2]) > 1e-3  # not pure sky
+        seen = np.ptp(reference.reshape(-1, 3) / reference[0, 0], -1).reshape(
+            reference.shape[:2]) > 1e-3  # not pure sky
         ratio = pictures[0][seen].mean() / reference[seen].mean()
         quality = f"{flip(reference, pictures[0]):.4f} | {flip(pictures[1], pictures[0]):.4f} | {ratio:.4f} | {cost(references, seen, theirs['rates'][1]) / cost(pictures, seen, rate):.1f}"
-    print(f"| {name}, {' x '.join(map(str, box))} | {theirs['rates'][0]:.0f} | {ours:.0f} | {ours / theirs['rates'][0]:.1f} | "
-          f"{theirs['peak']:.0f} | {peak:.0f} | {theirs['peak'] / peak:.1f} | {quality} |", flush=True)
+    print(
+        f"| {name}, {' x '.join(map(str, box))} | {theirs['rates'][0]:.0f} | {ours:.0f} | {ours / theirs['rates'][0]:.1f} | "
+        f"{theirs['peak']:.0f} | {peak:.0f} | {theirs['peak'] / peak:.1f} | {quality} |",
+        flush=True)
 
 
 def main():
     arguments = argparse.ArgumentParser()
     arguments.add_argument("--size", type=int, default=256)
-    arguments.add_argument("--spp", type=int, default=4, help="samples for timing Mitsuba; Heddle takes four times as many")
+    arguments.add_argument("--spp",
+                           type=int,
+                           default=4,
+                           help="samples for timing Mitsuba; Heddle takes four times as many")
     arguments.add_argument("--picture", type=int, default=64)
     arguments.add_argument("--picture-spp", type=int, default=256)
     arguments.add_argument("--variant", default="scalar_rgb")
@@ -162,8 +179,9 @@ def main():
         dictionary = f"{folder}/scarfpart/data/volume_description.vol"
         vdb = f"{folder}/scarf.vdb"
         heddle("voxelize", dictionary, "-o", vdb, "--levels", 0, "--albedo", ".8,.8,.9")
-        print("| box | Mitsuba paths/s | Heddle paths/s | ratio | Mitsuba peak MiB | Heddle peak MiB | ratio | FLIP | FLIP of noise | "
-              "mean ratio | variance x time |")
+        print(
+            "| box | Mitsuba paths/s | Heddle paths/s | ratio | Mitsuba peak MiB | Heddle peak MiB | ratio | FLIP | FLIP of noise | "
+            "mean ratio | variance x time |")
         print("|---|---|---|---|---|---|---|---|---|---|---|", flush=True)
         for name, pad in (("dense", 1), ("doubled", 2)):
             if o.only in (None, name):

@@ -32,8 +32,11 @@ def check(S, wi, n=20000):
         by_pdf += pdf * abs(w[2]) / n
         wo = phase.sample(context, at, float(rng.random()), mi.Point2f(*rng.random(2)))[0]
         drawn += abs(wo[2]) / n
-    print(json.dumps({"S": S, "wi": [round(float(x), 3) for x in wi], "integral": round(float(integral), 3),
-                      "mean |wo z| by pdf": round(float(by_pdf), 3), "drawn": round(float(drawn), 3)}), flush=True)
+    print(json.dumps({
+        "S": S, "wi": [round(float(x), 3) for x in wi], "integral": round(float(integral), 3),
+        "mean |wo z| by pdf": round(float(by_pdf), 3), "drawn": round(float(drawn), 3)
+    }),
+          flush=True)
 
 
 for matrix in ((1, 1, 1, 0, 0, 0), (1, 1, .01, 0, 0, 0), (1, 1, .3, 0, 0, 0)):

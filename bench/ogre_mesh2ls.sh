@@ -11,7 +11,8 @@ voxels=2048
 for tool in "$heddle" vdb_tool xz /usr/bin/time; do
   command -v "$tool" >/dev/null || { echo "ogre_mesh2ls: '$tool' is missing" >&2; exit 1; }
 done
-[ -f "$data/mesh/ogre.obj.xz" ] || { echo "ogre_mesh2ls: skipped, no $data/mesh/ogre.obj.xz" >&2; exit 0; }
+[ -f "$data/mesh/ogre.obj.xz" ] ||
+    { echo "ogre_mesh2ls: skipped, no $data/mesh/ogre.obj.xz" >&2; exit 0; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 xz -dc "$data/mesh/ogre.obj.xz" >"$work/ogre.obj"

@@ -14,7 +14,9 @@ sys.path.insert(0, os.path.join(ROOT, "tools"))
 
 def heddle(*words):
     """Runs heddle with --json and returns its result; if it fails, exits with its message."""
-    done = subprocess.run([HEDDLE, *map(str, words), "--quiet", "--json"], capture_output=True, text=True)
+    done = subprocess.run([HEDDLE, *map(str, words), "--quiet", "--json"],
+                          capture_output=True,
+                          text=True)
     if done.returncode != 0:
         sys.exit(f"{' '.join(map(str, words))}\n{done.stderr.strip()}")
     return json.loads(done.stdout)
@@ -66,7 +68,9 @@ def middle(bounds):
 
 
 def camera_text(eye, target, up, angle):
-    return (f"[camera]\neye = {list(eye)}\ntarget = {list(target)}\nup = {list(map(float, up))}\nview_angle = {angle!r}\n")
+    return (
+        f"[camera]\neye = {list(eye)}\ntarget = {list(target)}\nup = {list(map(float, up))}\nview_angle = {angle!r}\n"
+    )
 
 
 def sun_text(direction, color):
@@ -74,7 +78,9 @@ def sun_text(direction, color):
 
 
 def commit():
-    done = subprocess.run(["git", "-C", ROOT, "rev-parse", "--short", "HEAD"], capture_output=True, text=True)
+    done = subprocess.run(["git", "-C", ROOT, "rev-parse", "--short", "HEAD"],
+                          capture_output=True,
+                          text=True)
     return done.stdout.strip() or "unknown"
 
 
@@ -83,7 +89,8 @@ def machine():
     name = platform.processor() or platform.machine()
     try:
         with open("/proc/cpuinfo") as file:
-            name = next(line.split(":", 1)[1].strip() for line in file if line.startswith("model name"))
+            name = next(
+                line.split(":", 1)[1].strip() for line in file if line.startswith("model name"))
     except (OSError, StopIteration):
         pass
     return f"{name}, {os.cpu_count()} cores"
@@ -96,7 +103,8 @@ def head(title):
 
 def need_packages():
     try:
-        import flip_evaluator, matplotlib, numpy, OpenEXR, PIL  # noqa: F401, E401 (only checks that they exist)
+        # only checks that they exist
+        import flip_evaluator, matplotlib, numpy, OpenEXR, PIL  # noqa: F401, E401
     except ImportError as error:
         sys.exit(f"{os.path.basename(sys.argv[0])}: the Python package '{error.name}' is missing; "
                  "pip install -r tools/heddle_compare/requirements.txt")

@@ -27,7 +27,10 @@ LEVELS = {"lamp": (3, 4, 5), "helmet": (3, 4, 5), "scarf": (1, 2, 3)}
 # The scarf's 73 blocks of 63 samples of 0.02 begin at block (8, 0, 3) of a lattice with the origin
 # (-14.0744, -0.1166, -9.8952); they span 5 x 4 x 5 blocks
 SCARF_BOUNDS = ([-3.9944, -0.1166, -6.1152], [2.3056, 4.9234, 0.1848])
-VIEWS = {"lamp": ((0.6, 0.35, 1.0), (0, 1, 0)), "helmet": ((0.35, 0.2, 1.0), (0, 1, 0)), "scarf": ((0.3, 1.0, 0.5), (0, 0, -1))}
+VIEWS = {
+    "lamp": ((0.6, 0.35, 1.0), (0, 1, 0)), "helmet": ((0.35, 0.2, 1.0), (0, 1, 0)),
+    "scarf": ((0.3, 1.0, 0.5), (0, 0, -1))
+}
 
 
 def source(folder, scene):
@@ -38,7 +41,9 @@ def source(folder, scene):
             with tarfile.open(os.path.join(DATA, "volume/scarf-part.tar.xz")) as archive:
                 archive.extractall(folder, filter="data")
         return os.path.join(where, "data/volume_description.vol"), SCARF_BOUNDS, []
-    path = os.path.join(DATA, "mesh/DamagedHelmet.glb" if scene == "helmet" else "mesh/AnisotropyBarnLamp/AnisotropyBarnLamp.gltf")
+    path = os.path.join(
+        DATA, "mesh/DamagedHelmet.glb"
+        if scene == "helmet" else "mesh/AnisotropyBarnLamp/AnisotropyBarnLamp.gltf")
     return path, heddle("info", path)["bounds"], ["--keep-masks"]
 
 
@@ -61,8 +66,10 @@ def scene_text(volume, bounds, back, up):
     text += protocol.sun_text(unit(plus((0.6, right), (-0.8, top), (-0.9, back))), [4.0, 3.8, 3.4])
     above = plus((1, c), (3 * r, top), (-2 * r, right), (-1.5 * r, back))
     text += area_text(above, plus((panel, right)), plus((panel, back)), 3.0)
-    text += area_text(plus((1, c), (3 * r, right), (-2 * r, top)), plus((panel, back)), plus((panel, top)), 2.0)
-    text += area_text(plus((1, c), (-3 * r, right), (-2 * r, top)), plus((panel, top)), plus((panel, back)), 1.0)
+    text += area_text(plus((1, c), (3 * r, right), (-2 * r, top)), plus((panel, back)),
+                      plus((panel, top)), 2.0)
+    text += area_text(plus((1, c), (-3 * r, right), (-2 * r, top)), plus((panel, top)),
+                      plus((panel, back)), 1.0)
     return text + f"[object.it]\nvolume = \"{os.path.abspath(volume)}\"\n"
 
 
@@ -72,7 +79,8 @@ def render(folder, name, volume, bounds, view, level, samples, seed=0):
         file.write(scene_text(volume, bounds, *view))
     out = os.path.join(folder, f"{name}.exr")
     print(f"  render {name}", file=sys.stderr, flush=True)
-    heddle("render", scene, "-o", out, "--size", "256x256", "--level", level, "--samples", samples, "--seed", seed)
+    heddle("render", scene, "-o", out, "--size", "256x256", "--level", level, "--samples", samples,
+           "--seed", seed)
     return out
 
 
@@ -81,7 +89,8 @@ def run_scene(folder, scene, a):
     from heddle_compare.jobs import Job
     path, bounds, masks = source(folder, scene)
     voxels = [] if scene == "scarf" else ["--voxels", a.lamp_voxels if scene == "lamp" else 512]
-    base = os.path.join(folder, f"{scene}_{a.lamp_voxels}.vdb" if scene == "lamp" else f"{scene}.vdb")
+    base = os.path.join(folder,
+                        f"{scene}_{a.lamp_voxels}.vdb" if scene == "lamp" else f"{scene}.vdb")
     made(base, "voxelize", path, *voxels, "--levels", 5, *masks)
     volumes = {m: base if m == "moments" else f"{base[:-4]}_{m}.vdb" for m in a.method}
     for method, volume in volumes.items():
@@ -92,7 +101,8 @@ def run_scene(folder, scene, a):
     jobs = [Job(reference, floor, scene, "0", "floor")]
     for level in LEVELS[scene]:
         for method, volume in volumes.items():
-            test = render(folder, f"{scene}_{level}_{method}", volume, bounds, VIEWS[scene], level, a.samples)
+            test = render(folder, f"{scene}_{level}_{method}", volume, bounds, VIEWS[scene], level,
+                          a.samples)
             jobs.append(Job(reference, test, scene, str(level), method))
     return jobs
 
@@ -110,15 +120,23 @@ def table_2(rows, key="flip"):
             words.append(f"{by[method][key]:.4f}")
         ours = gain(by["naive"][key], by["moments"][key]) if "moments" in by else float("nan")
         theirs = gain(paper[0], paper[2])
-        words += [f"{ours:.1%}", *(f"{x:.4g}" for x in paper), f"{theirs:.1%}", f"{ours / theirs:.1f}"]
+        words += [
+            f"{ours:.1%}", *(f"{x:.4g}" for x in paper), f"{theirs:.1%}", f"{ours / theirs:.1f}"
+        ]
         body.append(words)
     methods = [m for m in dict.fromkeys(row["method"] for row in rows) if m != "floor"]
-    return markdown(["scene", "level", *methods, "gain", "paper naive", "SGGX", "SGGX-H", "its gain", "gain / its"], body)
+    return markdown([
+        "scene", "level", *methods, "gain", "paper naive", "SGGX", "SGGX-H", "its gain",
+        "gain / its"
+    ], body)
 
 
 def main():
-    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    arguments.add_argument("-o", "--output", default=os.path.join(protocol.ROOT, "build/protocol_a"))
+    arguments = argparse.ArgumentParser(description=__doc__,
+                                        formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("-o",
+                           "--output",
+                           default=os.path.join(protocol.ROOT, "build/protocol_a"))
     arguments.add_argument("--scene", nargs="+", choices=list(LEVELS), default=list(LEVELS))
     arguments.add_argument("--method", nargs="+", default=["naive", "single", "moments"])
     arguments.add_argument("--samples", type=int, default=64)
@@ -133,7 +151,8 @@ def main():
     rows = [entry[0] for entry in entries]
     text = protocol.head("Protocol A: fixed camera, a level against the finest")
     text += f"256 x 256, {a.samples} samples, mean over touched pixels; `floor`: the finest level with another seed. Goal: gain / its >= 2.\n\n"
-    text += "FLIP\n\n" + table_2(rows) + "\nL1 (the paper's figures are FLIP)\n\n" + table_2(rows, "l1")
+    text += "FLIP\n\n" + table_2(rows) + "\nL1 (the paper's figures are FLIP)\n\n" + table_2(
+        rows, "l1")
     text += "\nAll errors\n\n" + table.error_table(rows)
     with open(os.path.join(a.output, "result.md"), "w") as file:
         file.write(text)

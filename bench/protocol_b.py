@@ -33,8 +33,14 @@ SCENES = {
     "satin": {"generate": "satin", **CLOTH},
     "hair": {"file": "hair/straight.hair", "front": (0, -1, 0), "up": (0, 0, 1), "fiber": True},
     "pine": {"file": "mesh/smallpine/scene.gltf", "front": (0, 0, 1), "up": (0, 1, 0)},
-    "lamp": {"file": "mesh/AnisotropyBarnLamp/AnisotropyBarnLamp.gltf", "front": (0, 0, 1), "up": (0, 1, 0)},
-    "sweater": {"file": "yarn/bcc/sweater_flame_ribbing.bcc", "front": (0, 0, 1), "up": (0, 1, 0), "yarn": True},
+    "lamp": {
+        "file": "mesh/AnisotropyBarnLamp/AnisotropyBarnLamp.gltf", "front": (0, 0, 1),
+        "up": (0, 1, 0)
+    },
+    "sweater": {
+        "file": "yarn/bcc/sweater_flame_ribbing.bcc", "front": (0, 0, 1), "up": (0, 1, 0),
+        "yarn": True
+    },
 }
 VIEWS = {"facing": 0.0, "oblique": 45.0, "along": 80.0}
 MATTE = "[material.matte]\nmodel = \"fiber\"\nalbedo = [0.9, 0.5, 0.2]\n"
@@ -49,9 +55,12 @@ def prepare(folder, name, a):
     else:
         path = os.path.join(DATA, scene["file"])
     model = ["--yarn", "cotton", "--yarn-radius", 0.1] if "yarn" in scene else []
-    extra = (["--footprints", a.footprints] if a.footprints else []) + (["--correlation"] if a.correlation else [])
-    volume = os.path.join(folder, "_".join([name, str(a.voxels), *(str(x).strip("-") for x in extra)]) + ".vdb")
-    voxels = made(volume, "voxelize", path, "--voxels", a.voxels, *model, *extra, "--levels", max(a.level) + 1)
+    extra = (["--footprints", a.footprints] if a.footprints else []) + (["--correlation"]
+                                                                        if a.correlation else [])
+    volume = os.path.join(
+        folder, "_".join([name, str(a.voxels), *(str(x).strip("-") for x in extra)]) + ".vdb")
+    voxels = made(volume, "voxelize", path, "--voxels", a.voxels, *model, *extra, "--levels",
+                  max(a.level) + 1)
     reach = 0.2 if "yarn" in scene else 0.0  # curves may have the bounds of centrelines
     lo, hi = heddle("info", path)["bounds"]
     return path, ([x - reach for x in lo], [x + reach for x in hi]), volume, voxels["voxel_size"][0]
@@ -64,12 +73,14 @@ def scene_text(name, path, volume, bounds, back, up, distance, size):
     c = middle(bounds)
     angle = math.degrees(2 * math.atan(0.5 * size[1] * PIXEL))
     text = MATTE + protocol.camera_text(plus((1, c), (distance, back)), c, up, angle)
-    for s, t, f, strength in ((0.5, -0.6, -1.0, 2.0), (-1.0, -0.3, -0.7, 0.7), (0.2, 1.0, -0.6, 0.4), (0.1, -1.0, -0.1, 0.7), (0.0, 0.0, -1.0, 0.5)):
+    for s, t, f, strength in ((0.5, -0.6, -1.0, 2.0), (-1.0, -0.3, -0.7, 0.7),
+                              (0.2, 1.0, -0.6, 0.4), (0.1, -1.0, -0.1, 0.7), (0.0, 0.0, -1.0, 0.5)):
         text += protocol.sun_text(unit(plus((s, side), (t, top), (f, front))), strength)
     text += f"[object.it]\nvolume = \"{os.path.abspath(volume)}\"\ngeometry = \"{os.path.abspath(path)}\"\n"
     if "yarn" in scene:
         text += "yarn = \"cotton\"\nyarn_radius = 0.1\n"
-    return text + ("materials = { \"*\" = \"matte\" }\n" if "yarn" in scene or "fiber" in scene else "")
+    return text + ("materials = { \"*\" = \"matte\" }\n"
+                   if "yarn" in scene or "fiber" in scene else "")
 
 
 def camera(name, view, bounds, voxel, level):
@@ -118,11 +129,16 @@ def run_scene(folder, name, a):
                 file.write(scene_text(name, path, volume, bounds, back, up, distance, size))
             samples = min(1024, a.samples * 4 ** max(level - 1, 0))
             common = ["--size", f"{size[0]}x{size[1]}", "--samples", samples]
-            reference, traced = render(folder, f"{label}_traced", scene, [*common, "--geometry", "--seed", 1], a.keep != "none")
+            reference, traced = render(folder, f"{label}_traced", scene,
+                                       [*common, "--geometry", "--seed", 1], a.keep != "none")
             for transport in a.transport:
-                more = [*common, "--transport", transport, *(["--level", level] if a.force_level else [])]
+                more = [
+                    *common, "--transport", transport,
+                    *(["--level", level] if a.force_level else [])
+                ]
                 test, walked = render(folder, f"{label}_{transport}", scene, more, a.keep == "all")
-                out.append((Job(reference, test, name, str(level), transport, view), walked, traced))
+                out.append((Job(reference, test, name, str(level), transport,
+                                view), walked, traced))
     return out
 
 
@@ -136,19 +152,32 @@ def result_table(entries, results):
     from heddle_compare.table import markdown
     body = []
     for (row, reference, test, _), (_, walked, traced) in zip(entries, results):
-        body.append([row["scene"], row["view"], row["level"], row["method"], f"{row['flip']:.3f}", f"{row['flip_noise']:.3f}",
-                     f"{row['transmittance_bias']:+.3f}", f"{row['transmittance_mean']:.3f}", f"{row['transmittance_p95']:.3f}",
-                     f"{row['transmittance_noise']:.3f}", f"{row['ratio_r']:.2f} {row['ratio_g']:.2f} {row['ratio_b']:.2f}",
-                     f"{row['ratio_per_alpha']:.2f}", f"{microseconds(walked, test):.2f}", f"{microseconds(traced, reference):.2f}",
-                     f"{walked['scene_memory_bytes'] / 2**20:.1f}", f"{traced['scene_memory_bytes'] / 2**20:.0f}", row["pixels"]])
-    return markdown(["scene", "view", "level", "transport", "FLIP", "noise", "T bias", "T mean abs", "p95", "noise", "R G B", "per alpha",
-                     "us a path", "traced", "MiB", "traced", "pixels"], body)
+        body.append([
+            row["scene"], row["view"], row["level"], row["method"], f"{row['flip']:.3f}",
+            f"{row['flip_noise']:.3f}", f"{row['transmittance_bias']:+.3f}",
+            f"{row['transmittance_mean']:.3f}", f"{row['transmittance_p95']:.3f}",
+            f"{row['transmittance_noise']:.3f}",
+            f"{row['ratio_r']:.2f} {row['ratio_g']:.2f} {row['ratio_b']:.2f}",
+            f"{row['ratio_per_alpha']:.2f}", f"{microseconds(walked, test):.2f}",
+            f"{microseconds(traced, reference):.2f}", f"{walked['scene_memory_bytes'] / 2**20:.1f}",
+            f"{traced['scene_memory_bytes'] / 2**20:.0f}", row["pixels"]
+        ])
+    return markdown([
+        "scene", "view", "level", "transport", "FLIP", "noise", "T bias", "T mean abs", "p95",
+        "noise", "R G B", "per alpha", "us a path", "traced", "MiB", "traced", "pixels"
+    ], body)
 
 
 def main():
-    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    arguments.add_argument("-o", "--output", default=os.path.join(protocol.ROOT, "build/protocol_b"))
-    arguments.add_argument("--scene", nargs="+", choices=list(SCENES), default=[s for s in SCENES if s != "sweater"])
+    arguments = argparse.ArgumentParser(description=__doc__,
+                                        formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("-o",
+                           "--output",
+                           default=os.path.join(protocol.ROOT, "build/protocol_b"))
+    arguments.add_argument("--scene",
+                           nargs="+",
+                           choices=list(SCENES),
+                           default=[s for s in SCENES if s != "sweater"])
     arguments.add_argument("--view", nargs="+", choices=list(VIEWS), default=list(VIEWS))
     arguments.add_argument("--level", nargs="+", type=int, default=[1, 2, 3, 4, 5])
     arguments.add_argument("--transport", nargs="+", default=["product"])
@@ -157,7 +186,10 @@ def main():
     arguments.add_argument("--force-level", action="store_true")
     arguments.add_argument("--footprints", type=int, choices=(4, 8))
     arguments.add_argument("--correlation", action="store_true")
-    arguments.add_argument("--keep", choices=("none", "traced", "all"), default="none", help="reuses existing pictures")
+    arguments.add_argument("--keep",
+                           choices=("none", "traced", "all"),
+                           default="none",
+                           help="reuses existing pictures")
     a = arguments.parse_args()
     protocol.need_packages()
     from heddle_compare import run, table
@@ -166,9 +198,10 @@ def main():
     entries = run.compare([job for job, _, _ in results])
     run.write_all(a.output, entries)
     text = protocol.head("Protocol B: a voxel a pixel, against traced geometry")
-    text += ("Means over touched pixels. T: transmittance, test - traced. `noise`: the error of the pictures' noise alone (T: at most). R G B: ratio of colour "
-             "sums; per alpha: of luminance by covered area. Times: of all threads, per path that meets the object, other work on the machine. Goal: FLIP "
-             "and T mean abs 0.02 and 0.01.\n\n")
+    text += (
+        "Means over touched pixels. T: transmittance, test - traced. `noise`: the error of the pictures' noise alone (T: at most). R G B: ratio of colour "
+        "sums; per alpha: of luminance by covered area. Times: of all threads, per path that meets the object, other work on the machine. Goal: FLIP "
+        "and T mean abs 0.02 and 0.01.\n\n")
     text += result_table(entries, results)
     with open(os.path.join(a.output, "result.md"), "w") as file:
         file.write(text)

@@ -13,7 +13,8 @@ for counts in 4,4 8,4 8,8 16,8; do
     for backend in sample raster; do
         (
             TIMEFORMAT=%U
-            time "$heddle" voxelize knit.bcc --yarn slice.toml -o out.vdb --voxel-size 0.06 --yarn-radius 0.1 \
+            time "$heddle" voxelize knit.bcc --yarn slice.toml -o out.vdb --voxel-size 0.06 \
+                --yarn-radius 0.1 \
                 --backend $backend --levels 0 >$backend.txt 2>/dev/null
         ) 2>$backend.time
     done

@@ -22,7 +22,8 @@ paths() {
     echo "| drawn | slices | fragment: CPU s | compute: CPU s | same bits |"
     echo "|---|---|---|---|---|"
     local row hash
-    for row in "knit.bcc --yarn slice.toml --yarn-radius 0.1 --voxel-size 0.06" "hair.hair --voxels 256"; do
+    for row in "knit.bcc --yarn slice.toml --yarn-radius 0.1 --voxel-size 0.06" \
+        "hair.hair --voxels 256"; do
         # shellcheck disable=SC2086
         set -- $row --backend raster --levels 0 -o path.vdb
         "$heddle" voxelize "$@" --raster-path fragment --json >report.txt 2>/dev/null
@@ -44,7 +45,8 @@ frames() {
         for backend in sample raster; do
             set -- --yarn slice.toml --voxel-size 0.06 --yarn-radius 0.1 --backend $backend --quiet
             { time "$heddle" voxelize f_%04d.bcc --frames 1-4 "$@" -o f_%04d.vdb; } 2>one.txt
-            { time for k in 1 2 3 4; do "$heddle" voxelize f_000$k.bcc "$@" -o f_000$k.vdb; done; } 2>four.txt
+            { time for k in 1 2 3 4; do "$heddle" voxelize f_000$k.bcc "$@" \
+                -o f_000$k.vdb; done; } 2>four.txt
             read -r real user <one.txt
             read -r real4 user4 <four.txt
             echo "| $loops | $backend | $real | $real4 | $user | $user4 |"
@@ -55,7 +57,8 @@ frames() {
 # render FILE: the CPU seconds of a path tracer, and its MiB of voxels
 render() {
     local TIMEFORMAT=%U
-    { time "$heddle" render "$1" -o picture.exr --size 256x256 --samples 32 --json >picture.txt 2>/dev/null; } 2>picture.time
+    { time "$heddle" render "$1" -o picture.exr --size 256x256 --samples 32 \
+        --json >picture.txt 2>/dev/null; } 2>picture.time
     echo "$(cat picture.time) | $(mib "$(json picture.txt scene_memory_bytes)")"
 }
 
@@ -65,7 +68,8 @@ blocks() {
     local shape n voxels TIMEFORMAT=%U
     for shape in flat hanging; do
         "$heddle" generate knit --counts 40,40 --shape $shape -o sheet.bcc --quiet
-        for n in "all levels|" "level 0|--levels 0" "level 0, as exported|--levels 0 --lobes 1 --footprints 0"; do
+        for n in "all levels|" "level 0|--levels 0" \
+            "level 0, as exported|--levels 0 --lobes 1 --footprints 0"; do
             # shellcheck disable=SC2086
             "$heddle" voxelize sheet.bcc --yarn cotton --voxels 512 ${n#*|} -o sheet.vdb --quiet
             echo "| $shape | .vdb, ${n%|*} | | | | $(mib "$(stat -c %s sheet.vdb)") | | | $(render sheet.vdb) |"
@@ -73,10 +77,13 @@ blocks() {
         voxels=
         for n in 0 65 33 17 9 5; do
             rm -rf blocks
-            { time "$heddle" export sheet.vdb --to mitsuba06 --block-samples $n -o blocks --json >export.txt; } 2>export.time
-            { time "$heddle" voxelize blocks/volume.vol --levels 0 -o back.vdb --quiet; } 2>import.time
+            { time "$heddle" export sheet.vdb --to mitsuba06 --block-samples $n -o blocks \
+                --json >export.txt; } 2>export.time
+            { time "$heddle" voxelize blocks/volume.vol --levels 0 -o back.vdb \
+                --quiet; } 2>import.time
             "$heddle" info back.vdb --json >info.txt
-            [ "$(json info.txt voxels)" = "${voxels:=$(json info.txt voxels)}" ] || echo "other voxels with $n" >&2
+            [ "$(json info.txt voxels)" = "${voxels:=$(json info.txt voxels)}" ] ||
+                echo "other voxels with $n" >&2
             read -r x y z <<<"$(tr -d '\n' <export.txt | sed 's/.*"cells": \[\([^]]*\)\].*/\1/; s/,/ /g')"
             echo -n "| $shape | blocks of $n samples | $x x $y x $z | $((x * y * z)) |"
             echo -n " $(awk -v b="$(json export.txt blocks)" -v n=$((x * y * z)) 'BEGIN { printf "%.0f %%", 100 * b / n }') |"

@@ -28,7 +28,9 @@ def facing(bounds, height):
     """An orthographic camera in front of the cloth, which lies in the xy plane."""
     c = middle(bounds)
     eye = plus((1, c), (2 * (bounds[1][0] - bounds[0][0]), (0, 0, 1)))
-    return (f"[camera]\nkind = \"orthographic\"\neye = {eye}\ntarget = {c}\nup = [0.0, 1.0, 0.0]\nview_height = {height!r}\n")
+    return (
+        f"[camera]\nkind = \"orthographic\"\neye = {eye}\ntarget = {c}\nup = [0.0, 1.0, 0.0]\nview_height = {height!r}\n"
+    )
 
 
 def write_scene(folder, name, text):
@@ -47,23 +49,30 @@ def met(picture):
 def levels_part(folder, a):
     cloth, volume = os.path.join(folder, "knit.bcc"), os.path.join(folder, "knit.vdb")
     made(cloth, "generate", "knit", "--counts", "40,50")
-    info = made(volume, "voxelize", cloth, "--voxels", 1536, "--yarn", "cotton", "--yarn-radius", 0.1, "--levels", 7)
+    info = made(volume, "voxelize", cloth, "--voxels", 1536, "--yarn", "cotton", "--yarn-radius",
+                0.1, "--levels", 7)
     bounds, voxel = heddle("info", cloth)["bounds"], info["voxel_size"][0]
     wide = 1024 * voxel
-    print(f"Knit, {info['voxels'] / 1e6:.0f} M voxels of level 0; the view is {1024} of them wide and high.\n")
-    print("| level | pixels | paths | meet | us a path that meets | of level 0 |\n" + "|---" * 6 + "|")
+    print(
+        f"Knit, {info['voxels'] / 1e6:.0f} M voxels of level 0; the view is {1024} of them wide and high.\n"
+    )
+    print("| level | pixels | paths | meet | us a path that meets | of level 0 |\n" + "|---" * 6 +
+          "|")
     first = None
     for level in range(7):
         size = 1024 >> level
         samples = max(1, a.paths // size ** 2)
-        scene = write_scene(folder, f"level_{level}", FIBER + SUN + SKY + facing(bounds, wide) +
-                            f"[object.it]\nvolume = \"{volume}\"\nmaterials = {{ \"*\" = \"matte\" }}\n")
+        scene = write_scene(
+            folder, f"level_{level}", FIBER + SUN + SKY + facing(bounds, wide) +
+            f"[object.it]\nvolume = \"{volume}\"\nmaterials = {{ \"*\" = \"matte\" }}\n")
         out = os.path.join(folder, "level.exr")
         r = heddle("render", scene, "-o", out, "--size", f"{size}x{size}", "--samples", samples)
         paths = size ** 2 * samples * met(out)
         each = r["render_seconds"] * os.cpu_count() / paths * 1e6
         first = first or each
-        print(f"| {level} | {size} x {size} | {size ** 2 * samples} | {paths / size ** 2 / samples:.2f} | {each:.2f} | 1/{first / each:.2f} |", flush=True)
+        print(
+            f"| {level} | {size} x {size} | {size ** 2 * samples} | {paths / size ** 2 / samples:.2f} | {each:.2f} | 1/{first / each:.2f} |",
+            flush=True)
 
 
 def traced_part(folder, a):
@@ -74,25 +83,34 @@ def traced_part(folder, a):
     info = made(volume, "voxelize", path, "--voxels", 512, *yarn)
     bounds = heddle("info", path)["bounds"]
     text = FIBER + SUN + SKY
-    body = (f"[object.it]\nvolume = \"{volume}\"\ngeometry = \"{path}\"\nyarn = \"{fit}\"\nfibers = 150\nmaterials = {{ \"*\" = \"matte\" }}\n")
-    print("\n| level | pixels | of | load s | us a path | noise % | variance x time | against traced | seconds to "
-          f"{a.noise} % | against | scene MiB | against |\n" + "|---" * 12 + "|")
+    body = (
+        f"[object.it]\nvolume = \"{volume}\"\ngeometry = \"{path}\"\nyarn = \"{fit}\"\nfibers = 150\nmaterials = {{ \"*\" = \"matte\" }}\n"
+    )
+    print(
+        "\n| level | pixels | of | load s | us a path | noise % | variance x time | against traced | seconds to "
+        f"{a.noise} % | against | scene MiB | against |\n" + "|---" * 12 + "|")
     for level in (3, 4):
-        size = 2 * math.ceil(max(bounds[1][i] - bounds[0][i] for i in (0, 1)) / info["voxel_size"][0] / 2 ** level / 2)
-        scene = write_scene(folder, f"traced_{level}", text + facing(bounds, size * info["voxel_size"][0] * 2 ** level) + body)
+        size = 2 * math.ceil(
+            max(bounds[1][i] - bounds[0][i] for i in (0, 1)) / info["voxel_size"][0] / 2**level / 2)
+        scene = write_scene(folder, f"traced_{level}",
+                            text + facing(bounds, size * info["voxel_size"][0] * 2**level) + body)
         rows = {}
         for name, more in (("volume", []), ("traced", ["--geometry"])):
             out = os.path.join(folder, f"{name}_{level}.exr")
             began = time.perf_counter()
-            r = heddle("render", scene, "-o", out, "--size", f"{size}x{size}", "--samples", 256, *more)
+            r = heddle("render", scene, "-o", out, "--size", f"{size}x{size}", "--samples", 256,
+                       *more)
             wall = time.perf_counter() - began
             cost = r["noise"] ** 2 * r["render_seconds"]
             load = wall - r["render_seconds"]
             rows[name] = (load, cost, load + cost / (0.01 * a.noise) ** 2, r["scene_memory_bytes"])
             each = r["render_seconds"] * os.cpu_count() / (size ** 2 * 256 * met(out)) * 1e6
-            ratio = [rows["traced"][i] / rows["volume"][i] for i in (1, 2, 3)] if name == "traced" else [1, 1, 1]
-            print(f"| {level} | {size} x {size} | {name} | {load:.2f} | {each:.2f} | {100 * r['noise']:.2f} | {cost:.5f} | {ratio[0]:.1f} | "
-                  f"{rows[name][2]:.2f} | {ratio[1]:.1f} | {r['scene_memory_bytes'] / 2 ** 20:.0f} | {ratio[2]:.0f} |", flush=True)
+            ratio = [rows["traced"][i] / rows["volume"][i]
+                     for i in (1, 2, 3)] if name == "traced" else [1, 1, 1]
+            print(
+                f"| {level} | {size} x {size} | {name} | {load:.2f} | {each:.2f} | {100 * r['noise']:.2f} | {cost:.5f} | {ratio[0]:.1f} | "
+                f"{rows[name][2]:.2f} | {ratio[1]:.1f} | {r['scene_memory_bytes'] / 2 ** 20:.0f} | {ratio[2]:.0f} |",
+                flush=True)
 
 
 def threads_part(folder, a):
@@ -100,7 +118,8 @@ def threads_part(folder, a):
     times = {1: [], 2: []}
     for _ in range(3):
         for threads in times:
-            r = heddle("render", scene, "-o", os.path.join(folder, "threads.exr"), "--size", "128x128", "--samples", 64, "--threads", threads)
+            r = heddle("render", scene, "-o", os.path.join(folder, "threads.exr"), "--size",
+                       "128x128", "--samples", 64, "--threads", threads)
             times[threads].append(r["render_seconds"])
     one, two = (min(times[n]) for n in times)
     print(f"\n1 thread {one:.2f} s, 2 threads {two:.2f} s: {one / two:.2f} times (best of 3).")
@@ -114,19 +133,26 @@ def first_part(folder, a):
     if os.path.exists(out):
         os.remove(out)
     began = time.perf_counter()
-    with subprocess.Popen([HEDDLE, "render", volume, "-o", out, "--samples", "4", "--quiet"]) as process:
+    with subprocess.Popen([HEDDLE, "render", volume, "-o", out, "--samples", "4",
+                           "--quiet"]) as process:
         while not os.path.exists(out) and process.poll() is None:
             time.sleep(0.01)
         first = time.perf_counter() - began
         process.wait()
-    print(f"\nPlain weave, {info['voxels'] / 1e6:.1f} M voxels: first picture after {first:.2f} s, 4 samples of 512 x 512 after "
-          f"{time.perf_counter() - began:.1f} s.")
+    print(
+        f"\nPlain weave, {info['voxels'] / 1e6:.1f} M voxels: first picture after {first:.2f} s, 4 samples of 512 x 512 after "
+        f"{time.perf_counter() - began:.1f} s.")
 
 
 def main():
-    parts = {"levels": levels_part, "traced": traced_part, "threads": threads_part, "first": first_part}
-    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    arguments.add_argument("-o", "--output", default=os.path.join(protocol.ROOT, "build/render_speed"))
+    parts = {
+        "levels": levels_part, "traced": traced_part, "threads": threads_part, "first": first_part
+    }
+    arguments = argparse.ArgumentParser(description=__doc__,
+                                        formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("-o",
+                           "--output",
+                           default=os.path.join(protocol.ROOT, "build/render_speed"))
     arguments.add_argument("--part", nargs="+", choices=list(parts), default=list(parts))
     arguments.add_argument("--paths", type=int, default=2 ** 20)
     arguments.add_argument("--noise", type=float, default=1.0)

@@ -17,7 +17,8 @@ export DISPLAY=:$(cat display.txt)
 # input COUNTS
 input() {
     for i in $(seq 10); do
-        xdotool mousemove $((700 - 10 * i)) 500 mousedown 1 mousemove $((690 - 10 * i)) $((500 - 3 * i)) mouseup 1
+        xdotool mousemove $((700 - 10 * i)) 500 mousedown 1 mousemove $((690 - 10 * i)) \
+            $((500 - 3 * i)) mouseup 1
         sleep 0.3
         xdotool click $((4 + i % 2))
         sleep 0.3
@@ -31,13 +32,15 @@ echo "| loops | slices | inputs | median answer, ms | slowest, ms |"
 echo "|---|---|---|---|---|"
 for counts in 8,8 17,8 34,16 68,32; do
     "$heddle" generate knit --counts $counts -o knit.bcc --quiet
-    "$heddle" view knit.bcc --yarn cotton.toml --up z --size 960x960 --json >report.json 2>words.txt &
+    "$heddle" view knit.bcc --yarn cotton.toml --up z --size 960x960 \
+        --json >report.json 2>words.txt &
     view=$!
     until xdotool search --name 'knit - heddle' >/dev/null 2>&1; do sleep 0.2; done
     sleep 5
     input
     [ -z "$out" ] || import -window root "$out/knit_$counts.png"
-    slices=$("$heddle" view knit.bcc --yarn cotton.toml --up z --headless -o pictures --size 960x960 --json 2>/dev/null | grep -o '"slices":[^,]*' | tr -dc 0-9)
+    slices=$("$heddle" view knit.bcc --yarn cotton.toml --up z --headless -o pictures --size 960x960 \
+        --json 2>/dev/null | grep -o '"slices":[^,]*' | tr -dc 0-9)
     xdotool key q
     wait $view
     number() { grep -o "\"$1\": *[0-9.e+]*" report.json | grep -o '[0-9.e+]*$'; }

@@ -48,14 +48,16 @@ def solve(rows, values):
 def fit(runs):
     """Relative least squares without negative costs: the best of all subsets of the three terms."""
     best = None
-    for keep in itertools.chain.from_iterable(itertools.combinations(range(3), k) for k in (3, 2, 1)):
+    for keep in itertools.chain.from_iterable(
+            itertools.combinations(range(3), k) for k in (3, 2, 1)):
         rows = [[r["terms"][i] / r["total_seconds"] for i in keep] for r in runs]
         cost = [0.0] * 3
         for i, c in zip(keep, solve(rows, [1.0] * len(rows))):
             cost[i] = c
         if min(cost) < 0:
             continue
-        error = sum((sum(c * t for c, t in zip(cost, r["terms"])) / r["total_seconds"] - 1) ** 2 for r in runs)
+        error = sum((sum(c * t for c, t in zip(cost, r["terms"])) / r["total_seconds"] - 1)**2
+                    for r in runs)
         if best is None or error < best[0]:
             best = (error, cost)
     return best[1]
@@ -63,11 +65,12 @@ def fit(runs):
 
 def row(name, r, extra=""):
     mib = 1 / 1048576
-    print(f"| {name} | {r['steps'] / 1e6:.0f} | {r['voxels'] / 1e6:.2f} | {r['read_seconds']:.2f} "
-          f"| {r['plan_seconds']:.2f} | {r['voxelize_seconds']:.2f} | {r['write_seconds']:.2f} "
-          f"| {r['total_seconds']:.2f} | {r['steps'] / r['total_seconds'] / 1e6:.1f} "
-          f"| {r['peak_memory_bytes'] * mib:.0f} | {r['predicted_peak_memory_bytes'] / r['peak_memory_bytes'] - 1:+.0%} "
-          f"| {extra} |")
+    print(
+        f"| {name} | {r['steps'] / 1e6:.0f} | {r['voxels'] / 1e6:.2f} | {r['read_seconds']:.2f} "
+        f"| {r['plan_seconds']:.2f} | {r['voxelize_seconds']:.2f} | {r['write_seconds']:.2f} "
+        f"| {r['total_seconds']:.2f} | {r['steps'] / r['total_seconds'] / 1e6:.1f} "
+        f"| {r['peak_memory_bytes'] * mib:.0f} | {r['predicted_peak_memory_bytes'] / r['peak_memory_bytes'] - 1:+.0%} "
+        f"| {extra} |")
     sys.stdout.flush()
 
 
@@ -79,8 +82,9 @@ def main():
     if not os.path.exists(SWEATER):
         sys.exit(f"voxelize_speed: skipped, no {SWEATER}")
     sizes = [512] if a.quick else [512, 1024, 2048]
-    print("| run | M steps | M voxels | read s | plan s | voxelize s | write s | total s | M steps/s | peak MiB "
-          "| predicted peak | |\n|---|---|---|---|---|---|---|---|---|---|---|---|")
+    print(
+        "| run | M steps | M voxels | read s | plan s | voxelize s | write s | total s | M steps/s | peak MiB "
+        "| predicted peak | |\n|---|---|---|---|---|---|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory(dir=".") as folder:
         runs = []
         for voxels in sizes:
@@ -93,16 +97,19 @@ def main():
         mid = sizes[len(sizes) // 2]
         one = voxelize(folder, mid, 150, a.yarn, "--threads", "1")
         two = next(r for r in runs if r["name"] == f"{mid} voxels, 150 fibers")
-        row(f"{mid}, 150, 1 thread", one, f"all cores: {one['total_seconds'] / two['total_seconds']:.2f} times as fast")
+        row(f"{mid}, 150, 1 thread", one,
+            f"all cores: {one['total_seconds'] / two['total_seconds']:.2f} times as fast")
         row(f"{mid}, 150, wool (flyaways)", voxelize(folder, mid, 150, "wool"))
         big = next(r for r in runs if r["name"] == f"{sizes[-1]} voxels, 150 fibers")
         small = voxelize(folder, sizes[-1], 150, a.yarn, "--memory", "1500M")
         row(f"{sizes[-1]}, 150, --memory 1500M", small,
             f"{small['total_seconds'] / big['total_seconds']:.2f} times as long")
         cost = fit(runs)
-        print(f"\nseconds = {cost[0]:.3g} steps + {cost[1]:.3g} touched subvoxels + {cost[2]:.3g} voxels, "
-              "by run: " + ", ".join(
-                  f"{sum(c * t for c, t in zip(cost, r['terms'])) / r['total_seconds'] - 1:+.0%}" for r in runs))
+        print(
+            f"\nseconds = {cost[0]:.3g} steps + {cost[1]:.3g} touched subvoxels + {cost[2]:.3g} voxels, "
+            "by run: " + ", ".join(
+                f"{sum(c * t for c, t in zip(cost, r['terms'])) / r['total_seconds'] - 1:+.0%}"
+                for r in runs))
         print("planner's own estimate, by run: " + ", ".join(
             f"{r['predicted_time_seconds'] / r['total_seconds'] - 1:+.0%}" for r in runs))
 

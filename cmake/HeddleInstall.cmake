@@ -18,7 +18,8 @@ else()
 endif()
 install(EXPORT heddle-core NAMESPACE heddle:: DESTINATION ${_dir})
 
-set(HEDDLE_OPENVDB_MODULE_DIR /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB) # Debian's Find module
+# Debian's Find module
+set(HEDDLE_OPENVDB_MODULE_DIR /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB)
 list(TRANSFORM _core REPLACE "^heddle_" "heddle::" OUTPUT_VARIABLE HEDDLE_CORE_NAMES)
 list(TRANSFORM _apps REPLACE "^heddle_" "heddle::" OUTPUT_VARIABLE HEDDLE_APP_NAMES)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/heddle-config.cmake.in
@@ -29,5 +30,6 @@ write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/heddle-config-versi
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/heddle-config.cmake
   ${CMAKE_CURRENT_BINARY_DIR}/heddle-config-version.cmake DESTINATION ${_dir})
 include(HeddlePkgConfig)
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md
+  ${PROJECT_SOURCE_DIR}/CHANGELOG.md
   DESTINATION ${CMAKE_INSTALL_DOCDIR})

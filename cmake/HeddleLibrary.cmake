@@ -23,7 +23,8 @@ else()
   target_compile_features(heddle_library PUBLIC cxx_std_20)
   target_link_libraries(heddle_library PRIVATE ${HEDDLE_FOREIGN})
   # before 1.0, a minor version may change the binary interface
-  set_target_properties(heddle_library PROPERTIES OUTPUT_NAME heddle EXPORT_NAME heddle LINKER_LANGUAGE CXX
+  set_target_properties(heddle_library PROPERTIES OUTPUT_NAME heddle EXPORT_NAME heddle
+    LINKER_LANGUAGE CXX
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 endif()
 add_library(heddle::heddle ALIAS heddle_library)

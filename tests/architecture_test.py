@@ -6,7 +6,8 @@ import subprocess
 import sys
 
 root = pathlib.Path(__file__).resolve().parent.parent
-failed = subprocess.run([sys.executable, root / "tools/draw_rooms.py", "--check"], check=False).returncode != 0
+failed = subprocess.run([sys.executable, root / "tools/draw_rooms.py", "--check"],
+                        check=False).returncode != 0
 walks = re.split(r"^## ", (root / "docs/architecture.md").read_text(), flags=re.MULTILINE)[1:]
 for walk in walks:
     title = walk.splitlines()[0]

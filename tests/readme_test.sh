@@ -12,7 +12,8 @@ awk '/^<!-- run by tests\/readme_test.sh -->/ { marked = 1; next }
      marked && /^```sh/ { inside = 1; next }
      /^```/ { inside = 0; marked = 0 }
      inside' "$readme" >commands.sh
-[ "$(grep -c '^heddle ' commands.sh)" -ge 8 ] || { echo "README.md has lost its commands" >&2; exit 1; }
+[ "$(grep -c '^heddle ' commands.sh)" -ge 8 ] ||
+    { echo "README.md has lost its commands" >&2; exit 1; }
 bash -euxo pipefail commands.sh
 
 awk '/^<!-- end of heddle help-tables -->/ { inside = 0 }

@@ -58,7 +58,8 @@ export DISPLAY=:$(cat display.txt)
 "$heddle" generate knit --counts 3,3 -o knit.bcc --quiet || wrong "generate"
 "$heddle" view knit.bcc --yarn cotton --fibers 30 --up z --size 640x480 >report.txt 2>words.txt &
 view=$!
-until_true 60 xdotool search --name 'knit - heddle' >/dev/null 2>&1 || wrong "no window: $(cat words.txt)"
+until_true 60 xdotool search --name 'knit - heddle' >/dev/null 2>&1 ||
+    wrong "no window: $(cat words.txt)"
 xdotool mousemove 450 250
 save s knit_view.png
 record open
@@ -87,8 +88,10 @@ grep -q 'inputs shown' report.txt || wrong "no report: $(cat report.txt)"
 ! grep -qv '^note: ' words.txt || wrong "words on stderr: $(cat words.txt)"
 cat report.txt
 
-"$heddle" render knit_view.toml --samples 1 --size 32x32 --quiet -o scene.png || wrong "the saved scene does not render"
-[ "$("$heddle" info knit_view.vdb | grep -c voxels)" -gt 0 ] || wrong "the saved .vdb cannot be read"
+"$heddle" render knit_view.toml --samples 1 --size 32x32 --quiet -o scene.png ||
+    wrong "the saved scene does not render"
+[ "$("$heddle" info knit_view.vdb | grep -c voxels)" -gt 0 ] ||
+    wrong "the saved .vdb cannot be read"
 
 # Ctrl-C closes it
 "$heddle" view knit.bcc --size 200x200 >/dev/null 2>words.txt &
@@ -104,7 +107,8 @@ wait $view
 # no display: one line
 DISPLAY=:12345 "$heddle" view knit.bcc >out.txt 2>words.txt
 [ $? -eq 4 ] || wrong "not exit code 4 without a display"
-[ "$(grep -vc '^note: ' words.txt)" -eq 1 ] || wrong "not one line without a display: $(cat words.txt)"
+[ "$(grep -vc '^note: ' words.txt)" -eq 1 ] ||
+    wrong "not one line without a display: $(cat words.txt)"
 
 [ $failures -eq 0 ] && echo "window: all right"
 exit $((failures > 0))

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Draws the rooms of cmake/layers.txt as an SVG: python3 tools/draw_rooms.py [--check] [docs/images/rooms.svg].
+"""Draws the rooms of cmake/layers.txt as an SVG: python3 tools/draw_rooms.py [--check]
+[docs/images/rooms.svg].
 
 A room stands below all rooms that it may include. A line joins it to those that no other line leads to. The colours are
 the groups of the table. With --check nothing is written: the exit code says whether the file is what would be written.
@@ -15,7 +16,8 @@ COLORS = ["#cfe3f7", "#d9efd0", "#fde8b8", "#f6d0d8", "#d3eeee", "#e2d6f3", "#d8
 
 
 def read_table(path):
-    """Returns {room: rooms that it may include}, {room: number of its group} and the names of the groups."""
+    """Returns {room: rooms that it may include}, {room: number of its group} and the names of the
+    groups."""
     below, group_of, groups, comment = {}, {}, [], ""
     for line in path.read_text().splitlines():
         if line.startswith("#"):
@@ -43,7 +45,8 @@ def reduce_edges(below):
 
 
 def place_in_rows(below):
-    """Returns rows of nodes, top down, and the pairs of nodes in neighbouring rows that a line joins.
+    """Returns rows of nodes, top down, and the pairs of nodes in neighbouring rows that a line
+    joins.
 
     A node is a room, or a tuple where a line passes through a row.
     """
@@ -89,7 +92,8 @@ def spread(row, wanted):
 
 
 def neighbours_of(pieces):
-    """Returns the nodes that lines join each node to in the row above it, and in the row below it."""
+    """Returns the nodes that lines join each node to in the row above it, and in the row below
+    it."""
     above, below = {}, {}
     for high, low in pieces:
         above.setdefault(low, []).append(high)
@@ -101,7 +105,8 @@ def count_crossings(rows, pieces):
     place = {node: i for row in rows for i, node in enumerate(row)}
     row_of = {node: i for i, row in enumerate(rows) for node in row}
     lines = [(row_of[high], place[high], place[low]) for high, low in pieces]
-    return sum(a[0] == b[0] and (a[1] - b[1]) * (a[2] - b[2]) < 0 for i, a in enumerate(lines) for b in lines[:i])
+    return sum(a[0] == b[0] and (a[1] - b[1]) * (a[2] - b[2]) < 0 for i, a in enumerate(lines)
+               for b in lines[:i])
 
 
 def order_rows(rows, pieces):
@@ -130,11 +135,13 @@ def straighten(rows, pieces):
     above, below = neighbours_of(pieces)
     x = {node: place for row in rows for node, place in zip(row, offsets(row))}
     for _ in range(STRAIGHTEN_SWEEPS):
-        middle = sum(x.values()) / len(x)  # pulls a little, so that parts with few lines do not drift away
+        middle = sum(x.values()) / len(
+            x)  # pulls a little, so that parts with few lines do not drift away
         for row in rows + rows[::-1]:
             wanted = {}
             for node in row:
-                near = [(x[n], 1 if isinstance(n, str) else 30) for n in above.get(node, []) + below.get(node, [])]
+                near = [(x[n], 1 if isinstance(n, str) else 30)
+                        for n in above.get(node, []) + below.get(node, [])]
                 near.append((middle, 0.3))
                 weight = sum(w for _, w in near)
                 wanted[node] = sum(place * w for place, w in near) / weight
@@ -151,16 +158,21 @@ def draw(below, group_of, groups):
     legend = MARGIN + len(rows) * ROW
     width = max(x[n] + width_of(n) // 2 for n in x) + MARGIN
     height = legend + 24 * len(groups) + MARGIN
-    out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}"'
-           ' font-family="sans-serif" font-size="12">',
-           f'<rect width="{width}" height="{height}" fill="#ffffff"/>']
+    out = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}"'
+        ' font-family="sans-serif" font-size="12">',
+        f'<rect width="{width}" height="{height}" fill="#ffffff"/>'
+    ]
     for high, low in pieces:
         top, bottom, bend = y[high] + BOX_HEIGHT, y[low], ROW // 3
-        out.append(f'<path d="M{x[high]} {top}C{x[high]} {top + bend} {x[low]} {bottom - bend} {x[low]} {bottom}"'
-                   ' fill="none" stroke="#7a8794" stroke-width="1.3"/>')
+        out.append(
+            f'<path d="M{x[high]} {top}C{x[high]} {top + bend} {x[low]} {bottom - bend} {x[low]} {bottom}"'
+            ' fill="none" stroke="#7a8794" stroke-width="1.3"/>')
     for node in x:
         if isinstance(node, tuple):  # through the row
-            out.append(f'<path d="M{x[node]} {y[node]}v{BOX_HEIGHT}" stroke="#7a8794" stroke-width="1.3"/>')
+            out.append(
+                f'<path d="M{x[node]} {y[node]}v{BOX_HEIGHT}" stroke="#7a8794" stroke-width="1.3"/>'
+            )
     for room, group in group_of.items():
         out.append(f'<rect x="{x[room] - BOX_WIDTH // 2}" y="{y[room]}" width="{BOX_WIDTH}" height="{BOX_HEIGHT}"'
                    f' rx="4" fill="{COLORS[group]}" stroke="#4a5560"/>')
@@ -174,14 +186,21 @@ def draw(below, group_of, groups):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("picture", nargs="?", type=pathlib.Path, default=ROOT / "docs/images/rooms.svg")
-    parser.add_argument("--check", action="store_true", help="only compare with the picture that is there")
+    parser.add_argument("picture",
+                        nargs="?",
+                        type=pathlib.Path,
+                        default=ROOT / "docs/images/rooms.svg")
+    parser.add_argument("--check",
+                        action="store_true",
+                        help="only compare with the picture that is there")
     arguments = parser.parse_args()
     text = draw(*read_table(ROOT / "cmake/layers.txt"))
     if not arguments.check:
         arguments.picture.write_text(text)
     elif not arguments.picture.exists() or arguments.picture.read_text() != text:
-        sys.exit(f"{arguments.picture}: not what cmake/layers.txt gives; run python3 tools/draw_rooms.py")
+        sys.exit(
+            f"{arguments.picture}: not what cmake/layers.txt gives; run python3 tools/draw_rooms.py"
+        )
 
 
 if __name__ == "__main__":

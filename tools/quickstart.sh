@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# From nothing to a picture: packages, build, a knitted swatch, its volume, its picture; then a table of what was done.
+# From nothing to a picture: packages, build, a knitted swatch, its volume, its picture; then a
+# table of what was done.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 out=build/quickstart
@@ -7,7 +8,8 @@ heddle=build/release/bin/heddle
 mkdir -p "$out"
 
 table=""
-# step LABEL RESULT COMMAND...: runs the command and adds a row with its seconds and what RESULT then says
+# step LABEL RESULT COMMAND...: runs the command and adds a row with its seconds and what RESULT
+# then says
 step() {
     local label=$1 result=$2 start=$EPOCHREALTIME
     shift 2

@@ -6,7 +6,8 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 start=$SECONDS
-tidy=$(command -v clang-tidy-14 || command -v clang-tidy) || { echo "no clang-tidy here" >&2; exit 1; }
+tidy=$(command -v clang-tidy-14 || command -v clang-tidy) ||
+    { echo "no clang-tidy here" >&2; exit 1; }
 mkdir -p build/tidy
 [ -e build/release/compile_commands.json ] || cmake --preset release >build/tidy/configure.log
 # clang knows neither g++'s precompiled headers nor the flags that go with them

@@ -1,6 +1,7 @@
 #pragma once
 
-// All that a program starts from. A program that needs one room includes the headers of that room alone.
+// All that a program starts from. A program that needs one room includes the headers of that room
+// alone.
 
 // The core.
 #include <heddle/base/error.h>

@@ -1,1 +1,2 @@
-"""What `tools/compare` and the protocols in `bench/` share: reading pictures, errors between them, tables, plots."""
+"""What `tools/compare` and the protocols in `bench/` share: reading pictures, errors between them,
+tables, plots."""

@@ -1,4 +1,5 @@
-"""Pictures as `heddle render` writes them: linear RGB, transmittance, variance of the pixel means."""
+"""Pictures as `heddle render` writes them: linear RGB, transmittance, variance of the pixel
+means."""
 import contextlib
 import dataclasses
 import os
@@ -15,7 +16,8 @@ class Picture:
     path: str
     rgb: np.ndarray            # (height, width, 3), linear
     transmittance: np.ndarray  # (height, width), 0 to 1
-    variance: np.ndarray       # (height, width), of the pixel's mean luminance; zeros where the file has none
+    # (height, width), of the pixel's mean luminance; zeros where the file has none
+    variance: np.ndarray
     samples: np.ndarray        # (height, width), paths; zeros where the file has none
 
     @property
@@ -25,7 +27,8 @@ class Picture:
 
 @contextlib.contextmanager
 def quiet():
-    """Nothing reaches stdout and stderr meanwhile: the OpenEXR library prints by itself what it then throws."""
+    """Nothing reaches stdout and stderr meanwhile: the OpenEXR library prints by itself what it
+    then throws."""
     kept, nowhere = [os.dup(1), os.dup(2)], os.open(os.devnull, os.O_WRONLY)
     try:
         os.dup2(nowhere, 1)
@@ -43,32 +46,43 @@ def read_channels(path):
     try:
         import OpenEXR
     except ImportError as error:
-        raise BadInput("compare: the Python package 'OpenEXR' is missing; pip install OpenEXR") from error
+        raise BadInput(
+            "compare: the Python package 'OpenEXR' is missing; pip install OpenEXR") from error
     if not os.path.isfile(path):
-        raise BadInput(f"{path}: no such file; render it with 'heddle render -o {os.path.basename(path)}'")
+        raise BadInput(
+            f"{path}: no such file; render it with 'heddle render -o {os.path.basename(path)}'")
     try:
         with quiet(), OpenEXR.File(path, separate_channels=True) as file:
-            channels = {name: np.array(channel.pixels, np.float32) for name, channel in file.channels().items()}
+            channels = {
+                name: np.array(channel.pixels, np.float32)
+                for name, channel in file.channels().items()
+            }
     except Exception as error:  # the package throws several kinds
         first = (str(error).splitlines() or ["unreadable"])[0]
-        raise BadInput(f"{path}: not an OpenEXR picture ({first}); compare takes what 'heddle render' writes") from error
+        raise BadInput(
+            f"{path}: not an OpenEXR picture ({first}); compare takes what 'heddle render' writes"
+        ) from error
     return channels
 
 
 def read_picture(path):
-    """@throws BadInput where a file has no R, G, B, no transmittance or A, or numbers that are not finite"""
+    """@throws BadInput where a file has no R, G, B, no transmittance or A, or numbers that are not
+    finite"""
     channels = read_channels(path)
     missing = [name for name in "RGB" if name not in channels]
     if missing:
         found = ", ".join(sorted(channels)) or "none"
-        raise BadInput(f"{path}: channel '{missing[0]}' is missing, found {found}; compare needs R, G and B")
+        raise BadInput(
+            f"{path}: channel '{missing[0]}' is missing, found {found}; compare needs R, G and B")
     rgb = np.stack([channels[name] for name in "RGB"], axis=-1)
     if "transmittance" in channels:
         transmittance = channels["transmittance"]
     elif "A" in channels:
         transmittance = 1.0 - channels["A"]
     else:
-        raise BadInput(f"{path}: neither 'transmittance' nor 'A' is there; compare needs one to know the object's pixels")
+        raise BadInput(
+            f"{path}: neither 'transmittance' nor 'A' is there; compare needs one to know the object's pixels"
+        )
     nothing = np.zeros_like(transmittance)
     for name, values in (("colour", rgb), ("transmittance", transmittance)):
         if not np.isfinite(values).all():

@@ -30,15 +30,18 @@ def compare(jobs, exposure=None):
 
 
 def write_all(folder, entries):
-    """errors.csv, errors.md, sheet.png, errors.png and, with `naive` among the methods, gains.png."""
+    """errors.csv, errors.md, sheet.png, errors.png and, with `naive` among the methods,
+    gains.png."""
     try:
         os.makedirs(folder, exist_ok=True)
     except OSError as error:
-        raise BadInput(f"{folder}: {error.strerror.lower()}; name a folder that can be made") from error
+        raise BadInput(
+            f"{folder}: {error.strerror.lower()}; name a folder that can be made") from error
     rows = [entry[0] for entry in entries]
     table.write_csv(os.path.join(folder, "errors.csv"), rows)
     with open(os.path.join(folder, "errors.md"), "w") as file:
-        file.write("Mean FLIP over touched pixels\n\n" + table.method_table(rows) + "\n" + table.error_table(rows))
+        file.write("Mean FLIP over touched pixels\n\n" + table.method_table(rows) + "\n" +
+                   table.error_table(rows))
     sheet.write_sheet(os.path.join(folder, "sheet.png"), entries)
     plot.plot_errors(os.path.join(folder, "errors.png"), rows)
     plot.plot_gains(os.path.join(folder, "gains.png"), rows)

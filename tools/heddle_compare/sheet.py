@@ -1,4 +1,5 @@
-"""The contact sheet: references, each followed by its tests above their FLIP maps; a line a scene and view."""
+"""The contact sheet: references, each followed by its tests above their FLIP maps; a line a scene
+and view."""
 import numpy as np
 
 from .errors import srgb_from_linear
@@ -17,7 +18,9 @@ def tile(rgb):
     if longest < EDGE:
         factor = EDGE // longest
         return image.resize((image.width * factor, image.height * factor), Image.Resampling.NEAREST)
-    return image.resize((max(1, image.width * EDGE // longest), max(1, image.height * EDGE // longest)), Image.Resampling.BOX)
+    return image.resize(
+        (max(1, image.width * EDGE // longest), max(1, image.height * EDGE // longest)),
+        Image.Resampling.BOX)
 
 
 def heat(values):
@@ -27,7 +30,8 @@ def heat(values):
 
 
 def places(groups):
-    """(line, column) of each group of tiles: a new line for a new scene or view, or where a line is full."""
+    """(line, column) of each group of tiles: a new line for a new scene or view, or where a line is
+    full."""
     line, column, before, out = -1, 0, None, []
     for tests in groups:
         wide = 1 + len(tests)
@@ -48,13 +52,16 @@ def draw_group(sheet, draw, left, top, tests):
     for i, (row, _, test, flip) in enumerate(tests, 1):
         x = left + i * (EDGE + GAP)
         draw.text((x, top), f"{row['method']} level {row['level']}"[:30], fill="white")
-        draw.text((x, top + TEXT), f"FLIP {row['flip']:.3f} x{row['ratio_g']:.2f}", fill=(200, 200, 120))
+        draw.text((x, top + TEXT),
+                  f"FLIP {row['flip']:.3f} x{row['ratio_g']:.2f}",
+                  fill=(200, 200, 120))
         sheet.paste(tile(srgb_from_linear(test.rgb * gain)), (x, top + 2 * TEXT))
         sheet.paste(tile(heat(flip)), (x, top + 2 * TEXT + EDGE + GAP))
 
 
 def write_sheet(path, entries):
-    """@param entries  (row, reference Picture, test Picture, FLIP map), in order; tests of one reference stand together"""
+    """@param entries  (row, reference Picture, test Picture, FLIP map), in order; tests of one
+    reference stand together"""
     from PIL import Image, ImageDraw
     groups = {}
     for entry in entries:

@@ -1,9 +1,11 @@
-"""CSV and markdown of measured jobs. A row is a dict: scene, view, level, method, reference, test and the errors."""
+"""CSV and markdown of measured jobs. A row is a dict: scene, view, level, method, reference, test
+and the errors."""
 import csv
 
-COLUMNS = ("scene", "view", "level", "method", "flip", "flip_noise", "flip_picture", "l1", "l1_picture", "transmittance_bias",
-           "transmittance_mean", "transmittance_p95", "transmittance_noise", "ratio_r", "ratio_g", "ratio_b",
-           "ratio_per_alpha", "pixels", "exposure", "reference", "test")
+COLUMNS = ("scene", "view", "level", "method", "flip", "flip_noise", "flip_picture", "l1",
+           "l1_picture", "transmittance_bias", "transmittance_mean", "transmittance_p95",
+           "transmittance_noise", "ratio_r", "ratio_g", "ratio_b", "ratio_per_alpha", "pixels",
+           "exposure", "reference", "test")
 
 
 def write_csv(path, rows):
@@ -40,14 +42,17 @@ def gain(naive, other):
 
 def error_table(rows):
     """All errors, a row a picture."""
-    header = ("scene", "view", "level", "method", "FLIP", "noise", "L1", "T bias", "T mean abs", "p95", "noise", "R", "G", "B",
-              "per alpha", "pixels")
-    keys = ("flip", "flip_noise", "l1", "transmittance_bias", "transmittance_mean", "transmittance_p95", "transmittance_noise",
-            "ratio_r", "ratio_g", "ratio_b", "ratio_per_alpha")
+    header = ("scene", "view", "level", "method", "FLIP", "noise", "L1", "T bias", "T mean abs",
+              "p95", "noise", "R", "G", "B", "per alpha", "pixels")
+    keys = ("flip", "flip_noise", "l1", "transmittance_bias", "transmittance_mean",
+            "transmittance_p95", "transmittance_noise", "ratio_r", "ratio_g", "ratio_b",
+            "ratio_per_alpha")
     body = []
     for row in rows:
-        words = [f"{row[k]:+.4f}" if k == "transmittance_bias" else f"{row[k]:.3f}" if k.startswith("ratio") else
-                 f"{row[k]:.4f}" for k in keys]
+        words = [
+            f"{row[k]:+.4f}" if k == "transmittance_bias" else
+            f"{row[k]:.3f}" if k.startswith("ratio") else f"{row[k]:.4f}" for k in keys
+        ]
         body.append([row["scene"], row["view"], row["level"], row["method"], *words, row["pixels"]])
     return markdown(header, body)
 

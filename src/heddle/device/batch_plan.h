@@ -29,8 +29,8 @@ struct BatchNeeds {
     BatchOptions made;          ///< of its level 0
 };
 
-/// Bytes of device memory that blocks take while they are a batch, by what is known before: sums, pairs,
-/// and the voxels that blocks of cloth have.
+/// Bytes of device memory that blocks take while they are a batch, by what is known before: sums,
+/// pairs, and the voxels that blocks of cloth have.
 [[nodiscard]] std::int64_t
 predict_batch_bytes(std::int64_t blocks,
                     const std::array<std::int64_t, kPrimitiveKinds>& pairs,

@@ -13,8 +13,8 @@
 
 namespace heddle {
 
-/// What gathers a primitive: a pass of its own for each kind, and a list of pairs for each pass. Which
-/// primitive it is says its Primitive, as on the CPU.
+/// What gathers a primitive: a pass of its own for each kind, and a list of pairs for each pass.
+/// Which primitive it is says its Primitive, as on the CPU.
 enum class PrimitiveKind : std::uint8_t {
     Plain,   ///< a piece of a single curve
     Yarn,    ///< a piece of a yarn of fibers

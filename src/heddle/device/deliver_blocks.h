@@ -11,8 +11,8 @@
 
 namespace heddle {
 
-/// What is to be made of a batch's level 0: all levels if the builder takes them built, else level 0 with the
-/// sums that it builds them from.
+/// What is to be made of a batch's level 0: all levels if the builder takes them built, else level
+/// 0 with the sums that it builds them from.
 /// @param levels  after begin(); null: no levels above 0 are wanted
 [[nodiscard]] BatchOptions batch_options(const FitOptions& fit, const LevelBuilder* levels);
 

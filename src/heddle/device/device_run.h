@@ -27,8 +27,8 @@ void check_device_options(const VoxelizeOptions& options, const DeviceOptions& d
 /// Which kinds of primitives there are.
 [[nodiscard]] std::array<bool, kPrimitiveKinds> kinds_of(const VoxelizeContext& context);
 
-/// One voxelization by executors of one kind: geometry goes up once, then batches of blocks are gathered,
-/// fitted and sent back, each by whichever stream is free.
+/// One voxelization by executors of one kind: geometry goes up once, then batches of blocks are
+/// gathered, fitted and sent back, each by whichever stream is free.
 template <typename Exec>
 class DeviceRun {
 public:

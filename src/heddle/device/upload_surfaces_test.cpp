@@ -82,7 +82,8 @@ struct SurfaceCase {
 
 using Words = std::vector<std::uint64_t>;
 
-/// What the CPU's sums of a block say, as Dense lays it out. Bits of all materials are in the first.
+/// What the CPU's sums of a block say, as Dense lays it out. Bits of all materials are in the
+/// first.
 Words words_of(const BlockSums& sums, std::size_t materials) {
     Words words(materials * kPlane);
     for (int cell = 0; cell < BlockSums::kVoxels; ++cell) {

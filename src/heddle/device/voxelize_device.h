@@ -33,14 +33,16 @@ struct DeviceOptions {
     DeviceReport* report = nullptr; ///< gets what the run took
 };
 
-/// Why the device does not do what is asked, though the CPU does: CoverageMode::Mask, FitMode::Last.
+/// Why the device does not do what is asked, though the CPU does: CoverageMode::Mask,
+/// FitMode::Last.
 /// Empty: it does.
 [[nodiscard]] std::string device_limitation(const VoxelizeOptions& options);
 
-/// voxelize() by the pipeline of the device, on a CUDA device: the same voxels and levels, bit for bit.
+/// voxelize() by the pipeline of the device, on a CUDA device: the same voxels and levels, bit for
+/// bit.
 /// @param levels  built above level 0 too; null: none
-/// @throws Error  as voxelize(); Unsupported: device_limitation(); OutOfMemory: `memory_bytes` is below what one
-///                block takes; Device: there is none, or it failed
+/// @throws Error  as voxelize(); Unsupported: device_limitation(); OutOfMemory: `memory_bytes` is
+///                below what one block takes; Device: there is none, or it failed
 [[nodiscard]] std::unique_ptr<VoxelLevel> voxelize_on_cuda(const Geometry& geometry,
                                                            const VoxelizeOptions& options,
                                                            const VoxelizePlan& plan,

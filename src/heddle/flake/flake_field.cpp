@@ -38,7 +38,8 @@ SggxMatrix scale_flake(const SggxMatrix& S) {
     return compose(e);
 }
 
-/// Mean over the axes of a voxel's optical depth per scene unit; coverage is capped as `density` is.
+/// Mean over the axes of a voxel's optical depth per scene unit; coverage is capped as `density`
+/// is.
 float mean_extinction(const Coverage& c, const Lattice& lattice) {
     const double columns = static_cast<double>(lattice.subvoxels) * lattice.subvoxels;
     const double cap = 1.0 - 0.5 / columns;

@@ -11,8 +11,8 @@
 
 namespace heddle {
 
-/// One unit of a PackedFlake's entries. Rounded to it, a matrix moves by at most 5e-5 of its largest
-/// eigenvalue: a twentieth of the smallest, so it stays positive definite.
+/// One unit of a PackedFlake's entries. Rounded to it, a matrix moves by at most 5e-5 of its
+/// largest eigenvalue: a twentieth of the smallest, so it stays positive definite.
 inline constexpr float kFlakeUnit = 1.0f / 32767.0f;
 /// Smallest eigenvalue of a flake's S, of the largest: seen end on, a fiber hides 3 % of its side.
 inline constexpr float kMinFlake = 1e-3f;
@@ -39,8 +39,8 @@ struct FlakeBlock {
 /// normals with (I - M) / 2, surfaces' lobes are as they are; the weighted mean of the moments is
 /// fitted. S is scaled to a largest eigenvalue of 1, and sigma_t so that the mean over the axes of
 /// sigma_t sqrt(S_aa) is that of -ln(1 - coverage_a) / h_a. S, and the albedo, grow by two voxels
-/// into emptiness (means of the known of six neighbours) and are isotropic beyond: what lies between
-/// two voxels' centres is interpolated, and S is never 0.
+/// into emptiness (means of the known of six neighbours) and are isotropic beyond: what lies
+/// between two voxels' centres is interpolated, and S is never 0.
 class FlakeField {
 public:
     /// Copies what it needs of `source`. Memory: 16 bytes a voxel, 3 more where albedo varies.

@@ -31,9 +31,9 @@ struct LevelOptions;
 
 /// Builds the levels of detail over blocks of level 0, in one pass over them and in any order.
 ///
-/// A block's levels 1 to 5 are built at once when the block is there, the levels above when the last
-/// child of a voxel is. Sums are integers and children are taken in a fixed order: threads do not show,
-/// nor does a region in the voxels whose children it holds.              [docs/lod.md]
+/// A block's levels 1 to 5 are built at once when the block is there, the levels above when the
+/// last child of a voxel is. Sums are integers and children are taken in a fixed order: threads do
+/// not show, nor does a region in the voxels whose children it holds.              [docs/lod.md]
 class LevelBuilder final : public BlockVisitor {
 public:
     /// @param with_columns  blocks will come with columns and sums
@@ -49,8 +49,9 @@ public:
     void sample(const VoxelLevelInfo& info, Vec3i index, const VoxelBlock& block) override;
     [[nodiscard]] LevelPlan plan(const LevelPlanInput& input) override;
 
-    /// What levels that come by accept() are built with, after begin(). Null: blocks have to be visited,
-    /// since the method is not `moments`, columns are missing, or neighbours share something.
+    /// What levels that come by accept() are built with, after begin(). Null: blocks have to be
+    /// visited, since the method is not `moments`, columns are missing, or neighbours share
+    /// something.
     [[nodiscard]] const LevelOptions* options_of_built() const;
     /// Levels that accept() wants of each block, after begin(): 0 to kBlockLevel.
     [[nodiscard]] int built_levels() const;

@@ -31,7 +31,8 @@ struct LevelErrors {
     double cells = 0.0;  ///< mean of DirectionError::cells; the truth's own noise is about .016
     double moment = 0.0; ///< median of DirectionError::moment
     double moment_worst = 0.0;
-    /// mean share of directed area whose kind, tangents or normals, no lobe has: it is not in the errors above
+    /// mean share of directed area whose kind, tangents or normals, no lobe has: it is not in the
+    /// errors above
     double lost = 0.0;
     std::optional<double> coverage; ///< mean of |c - truth| over parents and axes
     std::optional<double> coverage_worst;
@@ -51,9 +52,9 @@ struct LevelReportOptions {
 /// Measures levels of detail by brute force against all that the finest level holds below a voxel.
 ///
 /// Truth of directions: the finest lobes below a parent, weighed by their sums where the file has
-/// such (then S is fitted to these, unquantized), else by share times mean depth as rebuild_levels()
-/// has it. Lobes of tangents and of normals are measured apart, then averaged by weight. A method's
-/// lobes are taken as stored, packed.
+/// such (then S is fitted to these, unquantized), else by share times mean depth as
+/// rebuild_levels() has it. Lobes of tangents and of normals are measured apart, then averaged by
+/// weight. A method's lobes are taken as stored, packed.
 ///
 /// From the first level of which all voxels are measured on, truths are sums of the children's: the
 /// finest lobes are pooled about 1.4 times in all, 3 us each and core. Memory: 20 KiB a parent.

@@ -16,7 +16,8 @@ struct MergeOptions {
 };
 
 /// Reduces the children's pooled lobes to the parent's.
-/// @param first  where each child's lobes begin in the pool, and the end; children without are empty
+/// @param first  where each child's lobes begin in the pool, and the end; children without are
+///               empty
 /// @param seed   of this parent's random numbers: methods `random` and `wasserstein`
 /// @return       VoxelBlock::merge_order
 std::uint32_t merge_children(LobePool& pool,

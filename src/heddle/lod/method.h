@@ -9,8 +9,9 @@ namespace heddle {
 
 /// How the lobes of up to eight voxels become those of their parent.
 enum class LodMethod : std::uint8_t {
-    Moments,     ///< SGGX-H: the closest second moments merge, which is exact, until K are left
-    Wasserstein, ///< SGGX-H of the paper: closest histograms of samples, re-fitted    [Fabre26, 4.4]
+    Moments, ///< SGGX-H: the closest second moments merge, which is exact, until K are left
+    /// SGGX-H of the paper: closest histograms of samples, re-fitted [Fabre26, 4.4]
+    Wasserstein,
     Single,     ///< baseline: one SGGX, re-fitted at every level                     [Fabre26, 4.3]
     Naive,      ///< baseline: the mean direction and the mean coverage
     Random,     ///< baseline: one child's lobe, as Houdini's rasterizer keeps one direction

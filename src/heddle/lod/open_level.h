@@ -49,8 +49,8 @@ struct OpenVoxel {
 
 /// The voxels of one level in one block, unquantized, while the level above is built from them.
 ///
-/// Columns along an axis are 4^level words of 8 x 8 bits (level 0's, or less with fewer subvoxels), in
-/// Z-order: word (q, p) of the other two axes p < q, bits of q first. So a child's words are one
+/// Columns along an axis are 4^level words of 8 x 8 bits (level 0's, or less with fewer subvoxels),
+/// in Z-order: word (q, p) of the other two axes p < q, bits of q first. So a child's words are one
 /// quarter of its parent's, and joining them is one loop of OR.
 struct OpenLevel {
     static constexpr std::uint16_t kNone = 0xffff;

@@ -11,7 +11,8 @@ namespace heddle {
 namespace {
 
 /// Points over all lobes of a parent, but each gets its least. A parent's truth and the sum of its
-/// children's, whose lobes get more, are .016 apart in L1 (.07 at most); with twice the points .009.
+/// children's, whose lobes get more, are .016 apart in L1 (.07 at most); with twice the points
+/// .009.
 constexpr std::int64_t kPoints = 65536;
 constexpr std::int64_t kMinPoints = 64;
 

@@ -12,8 +12,8 @@
 namespace heddle {
 namespace {
 
-/// Puts what `old` holds of its voxels' columns, coverage and what neighbours share, in the place of
-/// what was made of level 0's.
+/// Puts what `old` holds of its voxels' columns, coverage and what neighbours share, in the place
+/// of what was made of level 0's.
 /// @throws Error  BadFile: the old level has other voxels
 void keep_columns(const VoxelLevel& old, VoxelLevel& made) {
     std::vector<VoxelBlock>* const blocks = made.blocks_in_memory();

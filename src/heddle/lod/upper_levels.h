@@ -13,7 +13,8 @@ namespace heddle {
 
 /// One voxel of a level above the blocks' own, or of theirs, while its parent waits for it.
 struct UpperVoxel {
-    /// Columns along one axis: those words that are not all zero, in runs of as many as a block has.
+    /// Columns along one axis: those words that are not all zero, in runs of as many as a block
+    /// has.
     /// Memory is the silhouette's, however large the voxel.
     static constexpr std::size_t kRunWords = std::size_t{1} << (2 * kBlockLevel);
     using Run = std::unique_ptr<std::array<std::uint64_t, kRunWords>>;
@@ -25,9 +26,9 @@ struct UpperVoxel {
     std::array<Runs, 3> columns;
 };
 
-/// The levels above the blocks' own: each voxel is built when the last of its children arrives, by the
-/// thread that brings it, and then its children are dropped. Blocks that come in Z-order leave few
-/// voxels open: about 2 a level.
+/// The levels above the blocks' own: each voxel is built when the last of its children arrives, by
+/// the thread that brings it, and then its children are dropped. Blocks that come in Z-order leave
+/// few voxels open: about 2 a level.
 class UpperLevels {
 public:
     /// Called with each finished voxel, from several threads.

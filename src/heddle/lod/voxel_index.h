@@ -17,8 +17,8 @@ public:
 
     [[nodiscard]] const VoxelLevel& source() const { return source_; }
 
-    /// Calls visit(BlockVoxel) for all voxels of the source that lie in one `levels` levels above it, in
-    /// a fixed order. Safe from several threads.
+    /// Calls visit(BlockVoxel) for all voxels of the source that lie in one `levels` levels above
+    /// it, in a fixed order. Safe from several threads.
     /// @param levels  0: the voxel itself
     /// @param index   of the coarser one
     template <typename Visit>

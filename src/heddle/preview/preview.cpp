@@ -236,9 +236,9 @@ private:
     }
 
     /// What of the light a voxel of a flat surface takes: the surface's projected area, A n d, over
-    /// the voxel's, with A n_a = c_a h^2 seen along the axes. A surface is met wherever the ray enters
-    /// the voxel, and voxels of one surface share it: what one of them covers, the next does not. As
-    /// a medium, a surface at a slant would have holes at every step from layer to layer.
+    /// the voxel's, with A n_a = c_a h^2 seen along the axes. A surface is met wherever the ray
+    /// enters the voxel, and voxels of one surface share it: what one of them covers, the next does
+    /// not. As a medium, a surface at a slant would have holes at every step from layer to layer.
     float
     hidden_by_sheet(RayState& s, const PreviewVoxel& v, Vec3f k, double t, double leave) const {
         float surface = 0.0f;

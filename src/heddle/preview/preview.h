@@ -44,8 +44,9 @@ struct PreviewImage {
 /// Each ray steps through occupied leaves and their voxels, front to back. A voxel that the ray
 /// crosses over the length s lets exp(-k s) through, k^2 = sum (d_a k_a)^2 with k_a = -ln(1 - c_a)
 /// / h_a: exact along the axes, for what looks the same from all sides, and for surfaces across an
-/// axis. Voxels of a flat surface hide the same wherever the ray enters, and neighbours on the ray add
-/// up what they hide; all others multiply what they let through. Memory: 12 bytes a voxel and 170 bytes a leaf.
+/// axis. Voxels of a flat surface hide the same wherever the ray enters, and neighbours on the ray
+/// add up what they hide; all others multiply what they let through. Memory: 12 bytes a voxel and
+/// 170 bytes a leaf.
 /// @throws Error  InvalidArgument: a size, direction or angle out of range; Cancelled
 [[nodiscard]] PreviewImage
 render_preview(const VoxelLevel& source, const PreviewOptions& options, Progress& progress);

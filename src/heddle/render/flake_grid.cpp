@@ -17,7 +17,8 @@ std::int64_t bytes_of(const std::vector<T>& v) {
     return static_cast<std::int64_t>(v.capacity() * sizeof(T));
 }
 
-/// Corners of the leaves of cells that may hold extinction: a voxel reaches the cells on both sides.
+/// Corners of the leaves of cells that may hold extinction: a voxel reaches the cells on both
+/// sides.
 std::vector<Vec3i> leaf_corners(const std::vector<Vec3i>& origins) {
     std::vector<Vec3i> out;
     out.reserve(8 * origins.size());
@@ -45,7 +46,8 @@ FlakeGrid::FlakeGrid(const FlakeField& field)
     add_leaves(field, leaf_corners(field.origins()));
 }
 
-/// Two rounds over the candidates: which hold extinction, then their flakes into arrays of that size.
+/// Two rounds over the candidates: which hold extinction, then their flakes into arrays of that
+/// size.
 void FlakeGrid::add_leaves(const FlakeField& field, const std::vector<Vec3i>& corners) {
     std::vector<std::uint8_t> dense(corners.size(), 0);
     parallel_chunks(corners.size(), 64, [&](std::size_t begin, std::size_t end) {
@@ -195,8 +197,8 @@ FlakeMedium::GridRay FlakeMedium::enter(const Ray& ray) const {
     return out;
 }
 
-/// Calls visit(leaf, ray from the leaf's corner, t_in, t_out) -> bool for the leaves that a ray crosses,
-/// in order, until it gives false. t counts from ray.t0.
+/// Calls visit(leaf, ray from the leaf's corner, t_in, t_out) -> bool for the leaves that a ray
+/// crosses, in order, until it gives false. t counts from ray.t0.
 template <typename Visit>
 void FlakeMedium::walk(const GridRay& ray, const Visit& visit) const {
     if (!(ray.t0 < ray.t1)) return;

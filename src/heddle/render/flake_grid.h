@@ -16,11 +16,12 @@
 
 namespace heddle {
 
-/// A FlakeField as rays cross it: leaves of 8^3 cells between voxel centres, each with the 9^3 flakes
-/// that a trilinear lookup in it needs, and one majorant. Leaves without extinction are left out.
+/// A FlakeField as rays cross it: leaves of 8^3 cells between voxel centres, each with the 9^3
+/// flakes that a trilinear lookup in it needs, and one majorant. Leaves without extinction are left
+/// out.
 ///
-/// sigma_t in 1 / 65535 of its leaf's largest, S in kFlakeUnit. Memory: 10.2 KB a leaf, 2.2 more where
-/// albedo varies. Never changes: any number of threads.
+/// sigma_t in 1 / 65535 of its leaf's largest, S in kFlakeUnit. Memory: 10.2 KB a leaf, 2.2 more
+/// where albedo varies. Never changes: any number of threads.
 class FlakeGrid {
 public:
     explicit FlakeGrid(const FlakeField& field);
@@ -29,7 +30,8 @@ public:
     static constexpr std::size_t kFlakes = std::size_t{kSide} * kSide * kSide;
     static constexpr std::uint32_t kNone = LeafTable<3>::kNone;
 
-    /// What is in a cell (i spans voxel centres i and i + 1): a leaf, or how much around it is empty.
+    /// What is in a cell (i spans voxel centres i and i + 1): a leaf, or how much around it is
+    /// empty.
     [[nodiscard]] LeafTable<3>::LeafLookup find_leaf(Vec3i cell) const { return table_.find(cell); }
     /// Largest sigma_t in a leaf: per scene unit of the object.
     [[nodiscard]] float majorant(std::uint32_t leaf) const { return majorant_[leaf]; }

@@ -72,8 +72,8 @@ public:
     }
 
 private:
-    /// Footprints of scattered rays widen by this per unit of distance where scattering is diffuse: a
-    /// tenth of a hemisphere's, so that light from near voxels is still taken from fine ones.
+    /// Footprints of scattered rays widen by this per unit of distance where scattering is diffuse:
+    /// a tenth of a hemisphere's, so that light from near voxels is still taken from fine ones.
     static constexpr float kDiffuseSpread = 0.2f;
     [[nodiscard]] static float spread_of(float roughness, float spread) {
         return std::max(spread, kDiffuseSpread * roughness);

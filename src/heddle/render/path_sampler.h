@@ -18,7 +18,8 @@ namespace detail {
     return ((x & 0x55555555u) << 1) | ((x & 0xaaaaaaaau) >> 1);
 }
 
-/// A nested uniform scramble in base 2: each bit flips by the bits above it.    [Owen 1995; Burley 2020]
+/// A nested uniform scramble in base 2: each bit flips by the bits above it.    [Owen 1995; Burley
+/// 2020]
 [[nodiscard]] constexpr std::uint32_t owen_scramble(std::uint32_t x, std::uint32_t seed) {
     x = reverse_bits(x);
     x ^= x * 0x3d20adeau;

@@ -36,8 +36,8 @@ struct Picture {
     Picture(std::int32_t w, std::int32_t h)
         : width(w), height(h), pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
 
-    /// Root of the mean over pixels of the luminance's variance of the mean, clamped at 1 so that a few
-    /// bright ones do not decide; 0 before every pixel has two samples.
+    /// Root of the mean over pixels of the luminance's variance of the mean, clamped at 1 so that a
+    /// few bright ones do not decide; 0 before every pixel has two samples.
     [[nodiscard]] double noise() const;
 };
 
@@ -47,8 +47,8 @@ struct PictureChannel {
     std::vector<float> values;
 };
 
-/// R G B A and, where asked, depth, transmittance, axis.X Y Z, albedo.R G B, level, material, samples,
-/// variance (of the mean luminance).
+/// R G B A and, where asked, depth, transmittance, axis.X Y Z, albedo.R G B, level, material,
+/// samples, variance (of the mean luminance).
 ///
 /// axis is the direction along which the first hits' axes gather: normals on the side that they
 /// face, tangents, which have no side, with their largest component positive.

@@ -186,7 +186,8 @@ void main() {
     if (item() >= uint(items.length())) return;
     Item i = items[item()];
     items[item()].direction = vec4(
-        fiber_direction(vec2(i.x, i.y), i.turn, i.rise, vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1)), 0);
+        fiber_direction(vec2(i.x, i.y), i.turn, i.rise,
+                        vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1)), 0);
 }
 )");
     program.dispatch(items.size());

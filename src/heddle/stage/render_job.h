@@ -36,8 +36,8 @@ struct RenderOutcome {
 /// checkpoint beside it, which goes when the picture is done.
 ///
 /// A coarse picture comes first, from the levels that are there already; its samples do not count.
-/// @throws Error  Cancelled: the picture so far and its checkpoint stay; NotFound: nothing to resume;
-///                BadFile: a checkpoint that is damaged or of another scene; CannotWrite
+/// @throws Error  Cancelled: the picture so far and its checkpoint stay; NotFound: nothing to
+///                resume; BadFile: a checkpoint that is damaged or of another scene; CannotWrite
 RenderOutcome render_to_file(Stage& stage,
                              const PathOptions& options,
                              std::uint64_t seed,

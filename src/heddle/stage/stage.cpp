@@ -196,8 +196,9 @@ void Stage::place_camera(const Scene& scene) {
     camera_ = std::make_unique<Camera>(view_, width_, height_);
 }
 
-/// No ray asks for a level finer than that of the narrowest footprint on the object's box: a corner's
-/// ray, which widens least, at the box's least distance. Scattered rays are wider than what they leave.
+/// No ray asks for a level finer than that of the narrowest footprint on the object's box: a
+/// corner's ray, which widens least, at the box's least distance. Scattered rays are wider than
+/// what they leave.
 void Stage::choose_levels() {
     const Ray corner = camera_->ray(0.0f, 0.0f, {0.0f, 0.0f});
     std::size_t at = 0;

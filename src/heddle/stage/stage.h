@@ -30,7 +30,8 @@ public:
     /// @throws Error  as the readers; BadFile: a level that does not exist, a volume without voxels
     Stage(const Scene& scene, const StageOptions& options, Progress& progress);
 
-    /// Reads the next finer level of a volume, coarsest first. @return false: all that is needed is there
+    /// Reads the next finer level of a volume, coarsest first. @return false: all that is needed is
+    /// there
     bool load_next_level() { return read_next(std::numeric_limits<std::int64_t>::max()); }
 
     [[nodiscard]] const PathScene& scene() const { return scene_; }

@@ -13,8 +13,8 @@ struct alignas(8) Texel {
 };
 static_assert(sizeof(Texel) == 8, "the same on host and device");
 
-// Four floats that are added and scaled each by itself. The host's compiler has vectors for that; for
-// the device, which has none, they are written out. Both round each number once: the same bits.
+// Four floats that are added and scaled each by itself. The host's compiler has vectors for that;
+// for the device, which has none, they are written out. Both round each number once: the same bits.
 #if defined(__CUDACC__)
 struct Float4 {
     float v[4];

@@ -17,8 +17,8 @@ enum class MapReading : std::uint8_t {
     Point      ///< at points, at the finest level; all maps but the height map
 };
 
-/// The materials of a geometry with their maps ready to be read. Materials that read a texture in the
-/// same way share it. Never changes: any number of threads.
+/// The materials of a geometry with their maps ready to be read. Materials that read a texture in
+/// the same way share it. Never changes: any number of threads.
 class GeometryMaps {
 public:
     /// @param geometry  must outlive this, unchanged

@@ -124,7 +124,8 @@ HEDDLE_HD inline Uv point_in_footprint(
             uv.v + spread * (to_unit_float(h << 24) - 0.5f)};
 }
 
-/// Sets the normal, by the normal map if it is to be read, and the tangent of anisotropic materials.
+/// Sets the normal, by the normal map if it is to be read, and the tangent of anisotropic
+/// materials.
 HEDDLE_HD inline void set_frame(std::uint64_t seed,
                                 const TriangleSetup& t,
                                 const SurfaceHit& hit,

@@ -62,8 +62,8 @@ private:
 /// Largest distance that the material's height map moves a point, in scene units; 0 without a map.
 /// @throws Error  InvalidArgument: the texture's size does not match its bytes
 [[nodiscard]] double max_displacement(const Material& material, const Texture& height_map);
-/// How far height maps move the mesh's points at most, scene units: a rounding more than the largest
-/// height, which is computed in float.
+/// How far height maps move the mesh's points at most, scene units: a rounding more than the
+/// largest height, which is computed in float.
 [[nodiscard]] double max_displacement(const Geometry& geometry, const Mesh& mesh);
 
 } // namespace heddle

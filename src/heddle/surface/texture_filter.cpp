@@ -65,7 +65,8 @@ Texel source_texel(const TextureView& t, const TextureLevel& from, std::int32_t 
              static_cast<std::uint16_t>(w)}};
 }
 
-// Mean over the source texels that texel (x, y) spans, by the exact overlap: odd sizes keep the mean.
+// Mean over the source texels that texel (x, y) spans, by the exact overlap: odd sizes keep the
+// mean.
 Texel box_average(const TextureView& t,
                   const TextureLevel& from,
                   const TextureLevel& to,

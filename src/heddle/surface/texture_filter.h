@@ -10,8 +10,9 @@
 
 namespace heddle {
 
-/// A texture that can be read at a point or averaged over a footprint. Box-filtered levels in linear
-/// light, 16 bits a channel; the finest level is read from the texture itself, which must outlive it.
+/// A texture that can be read at a point or averaged over a footprint. Box-filtered levels in
+/// linear light, 16 bits a channel; the finest level is read from the texture itself, which must
+/// outlive it.
 ///
 /// With `Mask` the averaged alpha is the fraction of the area in which the bilinear alpha reaches
 /// the threshold: unlike averaged alpha compared with the threshold, it keeps thin leaves.

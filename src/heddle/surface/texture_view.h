@@ -66,7 +66,8 @@ namespace texture_detail {
 
 constexpr float kOne = 65535.0f;
 
-// std::floor for |x| < 2^31; a call into libm where the machine's baseline has no instruction for it.
+// std::floor for |x| < 2^31; a call into libm where the machine's baseline has no instruction for
+// it.
 HEDDLE_INLINE float floor_of(float x) {
     const auto i = static_cast<float>(static_cast<std::int32_t>(x));
     return i > x ? i - 1.0f : i;

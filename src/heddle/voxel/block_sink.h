@@ -11,8 +11,8 @@
 
 namespace heddle {
 
-/// Where a voxelizer's finished blocks go, from several threads: each is shown to a visitor while its
-/// sums are at hand, and kept without the sums that the result does not hold.
+/// Where a voxelizer's finished blocks go, from several threads: each is shown to a visitor while
+/// its sums are at hand, and kept without the sums that the result does not hold.
 class BlockSink {
 public:
     /// @param info     of the result, counts unknown; without fields.masks, sums are dropped

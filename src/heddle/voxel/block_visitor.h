@@ -32,8 +32,9 @@ public:
 
     /// Called once before the first visit().
     /// @param info       of level 0, counts unknown
-    /// @param blocks     that visit() will be called for, once each, in about this order: neighbours
-    ///                   follow each other (z_order.h). Block i has voxels i * kBlockVoxels and on
+    /// @param blocks     that visit() will be called for, once each, in about this order:
+    ///                   neighbours follow each other (z_order.h). Block i has voxels i *
+    ///                   kBlockVoxels and on
     /// @param spool_dir  where finished data go in a temporary file; empty: they stay in memory
     virtual void begin(const VoxelLevelInfo& info,
                        std::span<const Vec3i> blocks,

@@ -45,7 +45,8 @@ struct FootprintTables {
 
 /// Columns of a voxel's face counted in n x n cells; n = 8, and 4 of it.
 ///
-/// Cell (q, p) is counter number Z-order (q, p), as the words are: word of 8 x 8 columns (or fewer) by word.
+/// Cell (q, p) is counter number Z-order (q, p), as the words are: word of 8 x 8 columns (or fewer)
+/// by word.
 class Footprint {
 public:
     /// @param level      of the voxel
@@ -80,8 +81,9 @@ public:
         }
     }
 
-    /// n x n bits, bit q n + p: as many as the covered share of the face rounds to, the fullest cells
-    /// first, of equally full ones the lower: so the bits' own share is the coverage to 1 / (2 n n).
+    /// n x n bits, bit q n + p: as many as the covered share of the face rounds to, the fullest
+    /// cells first, of equally full ones the lower: so the bits' own share is the coverage to 1 /
+    /// (2 n n).
     [[nodiscard]] HEDDLE_INLINE std::uint64_t bits(int n) const {
         constexpr int kNarrow = 11; // four cells of at most 4^11 columns, and 6 bits below them
         if (level_ > kNarrow) {

@@ -8,8 +8,9 @@
 
 namespace heddle {
 
-/// Voxels along a block's edge. Its voxels' sums (at most 5 MiB, cloth fills a third) stay in a core's
-/// share of the cache, and few spans lie on a border and are expanded twice: measured 16, 32, 64.
+/// Voxels along a block's edge. Its voxels' sums (at most 5 MiB, cloth fills a third) stay in a
+/// core's share of the cache, and few spans lie on a border and are expanded twice: measured 16,
+/// 32, 64.
 constexpr int kBlockVoxels = 32;
 
 /// A lattice measured in its own unit, the smallest subvoxel edge: lengths stay isotropic on

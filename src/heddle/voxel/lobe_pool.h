@@ -55,9 +55,10 @@ HEDDLE_INLINE void permute(T* values, int count, const std::uint8_t (&place)[kMa
 
 } // namespace detail
 
-/// Lines up at most kMaxLobes lobes as a voxel stores them: the heaviest first, the others so that the
-/// last one merges first.
-/// @param make_lobes  (DirectionSums*, int count) -> how lobes are compared and merged (agglomerate.h)
+/// Lines up at most kMaxLobes lobes as a voxel stores them: the heaviest first, the others so that
+/// the last one merges first.
+/// @param make_lobes  (DirectionSums*, int count) -> how lobes are compared and merged
+///                    (agglomerate.h)
 /// @return            VoxelBlock::merge_order
 template <typename MakeLobes>
 HEDDLE_INLINE std::uint32_t order_lobes(const LobeRow& row, const MakeLobes& make_lobes) {
@@ -79,8 +80,8 @@ HEDDLE_INLINE std::uint32_t order_lobes(const LobeRow& row, const MakeLobes& mak
     return order.targets;
 }
 
-/// Merges the closest of the lobes until `keep` are left, at most kMaxLobes, moves those to the front
-/// and lines them up.
+/// Merges the closest of the lobes until `keep` are left, at most kMaxLobes, moves those to the
+/// front and lines them up.
 /// @param row   count becomes how many are left
 /// @param same  distance below which lobes merge even so (agglomerate.h)
 /// @return      as order_lobes
@@ -124,7 +125,8 @@ struct ByMoments {
 /// reduce() by second moments, compiled for the machine's vectors.
 std::uint32_t reduce_by_moments(LobePool& pool, int keep, bool with_maps, float same = 0.0f);
 
-/// Fits that were just made: the voxels that one flat triangle passes alone have few different sums.
+/// Fits that were just made: the voxels that one flat triangle passes alone have few different
+/// sums.
 class RecentFits {
 public:
     [[nodiscard]] PackedSggx fit(const std::int64_t (&moment)[6], std::int64_t weight);

@@ -7,7 +7,8 @@
 
 namespace heddle {
 
-/// Some of a geometry's materials, of which there are at most 256. Crosses to the device as it lies.
+/// Some of a geometry's materials, of which there are at most 256. Crosses to the device as it
+/// lies.
 struct MaterialSet {
     std::uint64_t words[4]{}; ///< bit m % 64 of word m / 64: material m
 

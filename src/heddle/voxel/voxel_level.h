@@ -14,8 +14,8 @@
 
 namespace heddle {
 
-/// One lattice for all objects: voxel (i, j, k) spans [i, i + 1) x voxel_size.x and so on; the corner
-/// of index (0, 0, 0) is the scene's origin.
+/// One lattice for all objects: voxel (i, j, k) spans [i, i + 1) x voxel_size.x and so on; the
+/// corner of index (0, 0, 0) is the scene's origin.
 struct Lattice {
     Vec3d voxel_size{1.0, 1.0, 1.0}; ///< scene units, > 0
     std::int32_t subvoxels = 8;      ///< per voxel axis: 1, 2, 4 or 8; 2^L times that at level L
@@ -42,8 +42,8 @@ static_assert(sizeof(Coverage) == 8);
     return static_cast<std::uint16_t>((part * 65535 + whole / 2) / whole);
 }
 
-/// One SGGX of a voxel with its share and material: of tangents for a fiber material, of normals for
-/// a surface.
+/// One SGGX of a voxel with its share and material: of tangents for a fiber material, of normals
+/// for a surface.
 struct Lobe {
     PackedSggx sggx;
     std::uint8_t weight = 0;   ///< share of the voxel's directed area, 255 = all; >= 1

@@ -6,8 +6,8 @@
 
 namespace heddle {
 
-/// True when cell `a` comes before `b` in Z-order: the 2 x 2 x 2 cells of a parent floor(i / 2), and of
-/// its parent, and so on, follow each other. Negative indices come first.
+/// True when cell `a` comes before `b` in Z-order: the 2 x 2 x 2 cells of a parent floor(i / 2),
+/// and of its parent, and so on, follow each other. Negative indices come first.
 [[nodiscard]] constexpr bool z_order_less(Vec3i a, Vec3i b) {
     const auto differ = [&](int k) {
         return static_cast<std::uint32_t>(a[k]) ^ static_cast<std::uint32_t>(b[k]);

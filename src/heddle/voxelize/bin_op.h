@@ -10,8 +10,8 @@
 
 namespace heddle {
 
-/// Calls visit(x, y, z) for the index of each block of the range that the piece's control hull, grown
-/// by its reach, touches.
+/// Calls visit(x, y, z) for the index of each block of the range that the piece's control hull,
+/// grown by its reach, touches.
 template <typename Visit>
 HEDDLE_HD inline void for_each_block(const FiberView& fibers,
                                      const FiberPiece& piece,
@@ -47,8 +47,8 @@ plane_meets(const Vec3d (&p)[3], Vec3d normal, double margin, Vec3d center, Vec3
                   (units.n * static_cast<double>(kScanOne)));
 }
 
-/// Calls visit(x, y, z) for the index of each block of the range that the triangle's box touches and
-/// its plane meets.
+/// Calls visit(x, y, z) for the index of each block of the range that the triangle's box touches
+/// and its plane meets.
 /// @param corners  scene units
 /// @param move     how far height maps move its points at most, scene units
 template <typename Visit>

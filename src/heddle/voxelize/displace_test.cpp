@@ -14,7 +14,8 @@ namespace {
 constexpr SubvoxelBox kEverywhere{{-(1 << 30), -(1 << 30), -(1 << 30)},
                                   {1 << 30, 1 << 30, 1 << 30}};
 
-// An octahedron's faces split n x n, pushed onto a sphere with random radii: triangles of all sizes.
+// An octahedron's faces split n x n, pushed onto a sphere with random radii: triangles of all
+// sizes.
 Mesh bumpy_sphere(int n, float radius, std::uint64_t seed) {
     Mesh mesh;
     std::map<std::array<int, 3>, std::uint32_t> index;

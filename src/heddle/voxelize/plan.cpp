@@ -18,8 +18,8 @@ constexpr double kMaxVoxels = 0x1p40;
 constexpr double kMaxAxis = 0x1p30; ///< indices are 32-bit in VDB; room for the lattice's corner
 constexpr std::int64_t kDefaultVoxels = 512;
 
-/// Seconds of fibers = (a steps + b touched subvoxels + c voxels) / threads; fitted over nine runs on two
-/// cores of an AMD EPYC with AVX2, within 15 % (bench/results/voxelize.md).
+/// Seconds of fibers = (a steps + b touched subvoxels + c voxels) / threads; fitted over nine runs
+/// on two cores of an AMD EPYC with AVX2, within 15 % (bench/results/voxelize.md).
 constexpr double kSecondsPerStep = 2.28e-8;
 constexpr double kSecondsPerSubvoxel = 8.4e-9;
 constexpr double kSecondsPerVoxel = 3.0e-6;

@@ -43,13 +43,14 @@ struct VoxelizePlan {
     std::shared_ptr<PreparedSlot> prepared;
 };
 
-/// The part of plan_voxelize() that needs no look at the blocks: lattice, bounds and range of voxels.
+/// The part of plan_voxelize() that needs no look at the blocks: lattice, bounds and range of
+/// voxels.
 /// @throws Error  as plan_voxelize
 [[nodiscard]] VoxelizePlan plan_range(const Geometry& geometry, const VoxelizeOptions& options);
 
 /// Plans the work: grid, blocks, batches, predicted bytes and time.
-/// @throws Error  BadFile: an object without extent; InvalidArgument: voxel size not finite or <= 0,
-///                more than 2^40 voxels or 2^30 along an axis, curves of a surface's material;
+/// @throws Error  BadFile: an object without extent; InvalidArgument: voxel size not finite or <=
+///                0, more than 2^40 voxels or 2^30 along an axis, curves of a surface's material;
 ///                OutOfMemory: `memory_bytes` below the least; Cancelled
 [[nodiscard]] VoxelizePlan plan_voxelize(const Geometry& geometry,
                                          const VoxelizeOptions& options,

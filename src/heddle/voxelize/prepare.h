@@ -39,7 +39,8 @@ public:
     /// Gives the counts' memory back.
     void drop_bins() { bins_.reset(); }
 
-    /// True if it was made for the same; of a geometry that was changed in place this does not tell.
+    /// True if it was made for the same; of a geometry that was changed in place this does not
+    /// tell.
     [[nodiscard]] bool
     is_of(const Geometry& other, const VoxelizePlan& plan, std::uint64_t seed) const;
 
@@ -47,8 +48,8 @@ private:
     std::optional<Bins> bins_;
 };
 
-/// Where plan_voxelize() leaves what it has prepared, until the first run by the plan takes it: it is
-/// not in memory any more while the result is written. Safe from several threads.
+/// Where plan_voxelize() leaves what it has prepared, until the first run by the plan takes it: it
+/// is not in memory any more while the result is written. Safe from several threads.
 class PreparedSlot {
 public:
     explicit PreparedSlot(std::unique_ptr<PreparedGeometry> prepared)

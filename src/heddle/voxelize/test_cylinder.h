@@ -68,8 +68,8 @@ inline double silhouette_in_slab(const ExactCylinder& k, int axis, double z0, do
     return area;
 }
 
-/// Sum, over all voxels of edge `edge` along `axis`, of the silhouettes of fiber cut by voxel: their
-/// faces tile the plane, so a layer of voxels at a time.
+/// Sum, over all voxels of edge `edge` along `axis`, of the silhouettes of fiber cut by voxel:
+/// their faces tile the plane, so a layer of voxels at a time.
 inline double sum_of_silhouettes(const ExactCylinder& k, int axis, double edge) {
     const Vec3d d = normalize(k.to - k.from);
     const double end = k.radius * std::sqrt(std::max(0.0, 1.0 - d[axis] * d[axis]));

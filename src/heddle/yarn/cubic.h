@@ -6,8 +6,8 @@
 
 namespace heddle {
 
-/// P(t) = c[0] + c[1] t + c[2] t^2 + c[3] t^3.   slice/slice_glsl.h has the same body in GLSL, which
-/// shares no source with C++, and so have the frames of yarn_section.h and fiber_source.cpp.
+/// P(t) = c[0] + c[1] t + c[2] t^2 + c[3] t^3.   slice/slice_glsl.h has the same body in GLSL,
+/// which shares no source with C++, and so have the frames of yarn_section.h and fiber_source.cpp.
 /// @tparam T  float or double
 template <typename T>
 struct PowerCubic {

@@ -12,8 +12,8 @@ namespace heddle {
 /// Span `k` of a curve.
 [[nodiscard]] Cubic span_cubic(const CurveSet& set, std::size_t curve, std::size_t k);
 
-/// The curves of a geometry as numbered pieces, with the arc lengths and the frames that yarns need:
-/// what a FiberView points to. Both work by the view's functions.
+/// The curves of a geometry as numbered pieces, with the arc lengths and the frames that yarns
+/// need: what a FiberView points to. Both work by the view's functions.
 class FiberSource {
 public:
     /// @param geometry      must outlive it, unchanged

@@ -12,7 +12,8 @@
 namespace heddle {
 namespace {
 
-/// Flyaways beyond this many standard deviations are not drawn (io clamps its normal deviates alike).
+/// Flyaways beyond this many standard deviations are not drawn (io clamps its normal deviates
+/// alike).
 constexpr float kMaxDeviate = 2.5f;
 
 void push_fiber(
@@ -76,8 +77,8 @@ SliceTexel slice_texel(const Texture& image, std::size_t index) {
     return {pack_color(linear), static_cast<float>(t[3]) / 255.0f};
 }
 
-/// Fibers spread over the image in proportion to alpha: fiber i takes the texel where the running sum
-/// of alpha reaches (i + u) / n of the whole, and a random point in it.
+/// Fibers spread over the image in proportion to alpha: fiber i takes the texel where the running
+/// sum of alpha reaches (i + u) / n of the whole, and a random point in it.
 void place_slice(FiberTable& table, const YarnType& type, CounterRandom& random) {
     const Texture& image = type.slice;
     const std::size_t texels =

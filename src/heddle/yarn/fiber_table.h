@@ -9,12 +9,13 @@
 namespace heddle {
 
 /// The fibers of one yarn, as constants of their paths about its centreline. Arrays of one length,
-/// grouped by ply, with kSpare more entries of no meaning so that whole lanes can be read; model units
-/// of the YarnType.
+/// grouped by ply, with kSpare more entries of no meaning so that whole lanes can be read; model
+/// units of the YarnType.
 ///
-/// At yarn length s (model units) a procedural fiber lies, in its ply's frame (x towards the ply from
-/// the yarn's axis), at (ply_offset + a cos(f) m, b sin(f) m), with f = its angle + 2 pi s / fiber_pitch
-/// and m its migrating radius; the ply's frame turns by 2 pi s / ply_pitch     [Zhao 2016, sec. 4]
+/// At yarn length s (model units) a procedural fiber lies, in its ply's frame (x towards the ply
+/// from the yarn's axis), at (ply_offset + a cos(f) m, b sin(f) m), with f = its angle + 2 pi s /
+/// fiber_pitch and m its migrating radius; the ply's frame turns by 2 pi s / ply_pitch     [Zhao
+/// 2016, sec. 4]
 struct FiberTable {
     std::vector<std::uint32_t> first_of_ply; ///< plies + 1 offsets
     std::vector<float> ply_cos, ply_sin;     ///< base angle of each ply
@@ -31,11 +32,12 @@ struct FiberTable {
     }
 };
 
-/// Places the fibers of yarn number `yarn` of its type: counter-based, the same in any order of calls.
+/// Places the fibers of yarn number `yarn` of its type: counter-based, the same in any order of
+/// calls.
 ///
 /// Procedural: radii by rejection from p(R) = (1 - 2 eps) ((e - e^R) / (e - 1))^beta + eps, angles
-/// uniform [Zhao 2016, eq. 2]. Slice: fibers at points of the image drawn in proportion to its alpha,
-/// stratified along its rows; their section times their number is the alpha's integral.
+/// uniform [Zhao 2016, eq. 2]. Slice: fibers at points of the image drawn in proportion to its
+/// alpha, stratified along its rows; their section times their number is the alpha's integral.
 /// Solid: one fiber on the axis.
 [[nodiscard]] FiberTable place_fibers(const YarnType& type, std::uint64_t seed, std::uint64_t yarn);
 

@@ -40,8 +40,8 @@ struct SliceImage {
 [[nodiscard]] Texture bake_occlusion(const YarnType& yarn);
 
 /// Half the size again and again, down to one texel; the first is the image itself. A texel's alpha
-/// becomes the mean opacity of rays through its four along rows and along columns, so that a section
-/// seen from the side stays as opaque as it was, where the mean of alpha grows clear
+/// becomes the mean opacity of rays through its four along rows and along columns, so that a
+/// section seen from the side stays as opaque as it was, where the mean of alpha grows clear
 /// [LopezMoreno17, fig. 8]. Colours are weighted by alpha.
 /// @param image  RGBA
 [[nodiscard]] std::vector<Texture> shrink_slice(const Texture& image);

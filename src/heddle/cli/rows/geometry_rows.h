@@ -10,7 +10,8 @@ namespace heddle::cli {
 /// The rows that say how a file is read: --yarn-radius, --repeat.
 [[nodiscard]] std::vector<Option> load_rows();
 
-/// The rows that say what becomes of what was read: --yarn, --fibers, --fiber-radius, --height-map...
+/// The rows that say what becomes of what was read: --yarn, --fibers, --fiber-radius,
+/// --height-map...
 [[nodiscard]] std::vector<Option> model_rows();
 
 /// What those rows say.

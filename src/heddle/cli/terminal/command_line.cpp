@@ -10,7 +10,8 @@
 namespace heddle::cli {
 namespace {
 
-/// The long names, or what stands in for them: what an error calls an option, and what is suggested.
+/// The long names, or what stands in for them: what an error calls an option, and what is
+/// suggested.
 std::string spoken_name(const Option& option) {
     return option.positional() ? option.names : "--" + option.key();
 }

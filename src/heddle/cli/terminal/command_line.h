@@ -9,8 +9,8 @@ namespace heddle::cli {
 
 /// Reads the words behind a subcommand's name.
 /// @param command_line  kept in the result
-/// @throws UsageError   an unknown option (names the nearest), a value that the table does not allow,
-///                      a missing or a second value, something required that is not there
+/// @throws UsageError   an unknown option (names the nearest), a value that the table does not
+///                      allow, a missing or a second value, something required that is not there
 [[nodiscard]] Arguments parse_arguments(const Command& command,
                                         const std::vector<std::string>& words,
                                         const std::string& command_line);

@@ -40,7 +40,8 @@ public:
     /// On stderr at once, but once.
     void say(const std::string& sentence);
 
-    /// An empty report of a part of the work: what one of them said on stderr, the others do not repeat.
+    /// An empty report of a part of the work: what one of them said on stderr, the others do not
+    /// repeat.
     [[nodiscard]] Report part() const;
     /// All that JSON holds.
     [[nodiscard]] const nlohmann::ordered_json& values() const { return values_; }

@@ -33,8 +33,8 @@ struct TopLevel {
     [[nodiscard]] std::unique_ptr<UpperVoxel> take(std::size_t slot) const;
 };
 
-/// Level 0 and the levels above it of a batch of blocks, on the host; buffers are kept from batch to
-/// batch.
+/// Level 0 and the levels above it of a batch of blocks, on the host; buffers are kept from batch
+/// to batch.
 struct BatchLevels {
     BatchOptions options;
     std::array<StoredLevel, kBlockLevel + 1> level;
@@ -48,8 +48,8 @@ struct BatchLevels {
     void cut(std::size_t slot, Vec3i index, VoxelBlock& level0, BuiltBlock& built) const;
 };
 
-/// Stores a batch's level 0, builds the levels above it and stores them: as LevelBuilder does by the
-/// method `moments`, bit for bit.                                               [docs/lod.md]
+/// Stores a batch's level 0, builds the levels above it and stores them: as LevelBuilder does by
+/// the method `moments`, bit for bit.                                               [docs/lod.md]
 /// @param level0  is used up
 /// @param blocks  of the batch
 /// @throws Error  OutOfMemory, Device

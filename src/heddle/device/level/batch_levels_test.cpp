@@ -124,8 +124,8 @@ VoxelLevels built_by_visits(const Finest& finest, const LodOptions& lod) {
     return builder.finish(std::make_unique<LevelSubset>(*finest.source));
 }
 
-/// Builds the levels batch by batch, and expects that level 0 comes back as it was, and that no batch
-/// took more memory than predicted.
+/// Builds the levels batch by batch, and expects that level 0 comes back as it was, and that no
+/// batch took more memory than predicted.
 VoxelLevels built_by_batches(const Finest& finest, const LodOptions& lod, std::size_t batches) {
     LevelBuilder builder(lod);
     builder.begin(finest.source->info(), finest.index, {});

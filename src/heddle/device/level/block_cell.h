@@ -25,8 +25,8 @@ constexpr std::uint32_t kVoxelsPerBlock = kBlockVoxels * kBlockVoxels * kBlockVo
     return (b | b >> 8) & 0x1fu;
 }
 
-/// Place of voxel (x, y, z) of a block in Z-order, x first: a parent's children follow each other, child
-/// number x << 2 | y << 1 | z.
+/// Place of voxel (x, y, z) of a block in Z-order, x first: a parent's children follow each other,
+/// child number x << 2 | y << 1 | z.
 [[nodiscard]] HEDDLE_HD constexpr std::uint32_t z_order_from_index(Vec3i at) {
     return spread_bits(static_cast<std::uint32_t>(at.x)) << 2 |
            spread_bits(static_cast<std::uint32_t>(at.y)) << 1 |

@@ -6,7 +6,8 @@
 
 #include <utility>
 
-// The body of build_batch_levels(), for the files that make it for an executor: build_batch.cpp, .cu.
+// The body of build_batch_levels(), for the files that make it for an executor: build_batch.cpp,
+// .cu.
 
 namespace heddle {
 

@@ -52,7 +52,8 @@ struct ListParentsOp {
     }
 };
 
-/// Merges the lobes of each parent's children where they lie: they follow each other, child by child.
+/// Merges the lobes of each parent's children where they lie: they follow each other, child by
+/// child.
 /// Those left stand at the front of them.
 struct MergeChildrenOp {
     const std::uint32_t* first_child;
@@ -99,8 +100,8 @@ struct TakeLobesOp {
     }
 };
 
-/// Joins columns, an item a word of a parent: along the axis two children's are OR-ed, across it each
-/// fills a quarter.
+/// Joins columns, an item a word of a parent: along the axis two children's are OR-ed, across it
+/// each fills a quarter.
 struct JoinColumnsOp {
     const std::uint32_t* first_child;
     const std::uint8_t* child_mask;

@@ -12,8 +12,8 @@
 
 namespace heddle {
 
-/// What one material of one block is gathered into, where an executor works: as FiberSums on the CPU,
-/// with a place for every voxel. All adding is atomic and of integers.
+/// What one material of one block is gathered into, where an executor works: as FiberSums on the
+/// CPU, with a place for every voxel. All adding is atomic and of integers.
 struct DenseLobe {
     static constexpr int kMaskWords = 12; ///< columns along x, y, z; 8 of subvoxels; a spare one
     static constexpr int kSubvoxels = 3;  ///< the first mask word of subvoxels

@@ -26,8 +26,8 @@ void merge_lobes(Exec& exec, int max_lobes, LevelArrays& level) {
     level.maps = std::move(maps);
 }
 
-/// Level 0 of a batch from its sums: the lobes of each voxel, one a material, merged where there are
-/// more than may be stored. The same as fit_block() finds.
+/// Level 0 of a batch from its sums: the lobes of each voxel, one a material, merged where there
+/// are more than may be stored. The same as fit_block() finds.
 /// @param blocks   of the batch
 /// @param merging  a block has lobes of more than one material
 /// @throws Error  OutOfMemory, Device

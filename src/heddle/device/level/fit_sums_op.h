@@ -116,8 +116,8 @@ private:
     }
 };
 
-/// Merges the lobes of one voxel where they lie until as many are left as may be stored, and lines them
-/// up.
+/// Merges the lobes of one voxel where they lie until as many are left as may be stored, and lines
+/// them up.
 struct MergeLobesOp {
     const std::uint32_t* first_lobe; ///< per voxel, and the end
     DirectionSums* lobes;

@@ -9,13 +9,14 @@
 
 namespace heddle {
 
-/// The voxels of one level in a batch of blocks, unquantized, where an executor works: what is stored
-/// of the level, and what the next one is built from. In the order of `key`.
+/// The voxels of one level in a batch of blocks, unquantized, where an executor works: what is
+/// stored of the level, and what the next one is built from. In the order of `key`.
 struct LevelArrays {
     int level = 0;
     std::size_t voxel_count = 0;
     std::size_t lobe_count = 0;
-    /// per voxel: (number of the block in the batch << 15 | place in Z-order (block_cell.h)) >> 3 level: a parent's is key >> 3
+    /// per voxel: (number of the block in the batch << 15 | place in Z-order (block_cell.h)) >> 3
+    /// level: a parent's is key >> 3
     executor::Array<std::uint64_t> key;
     executor::Array<std::uint32_t> hits;       ///< per voxel: subvoxels, at most 2^24 at level 5
     executor::Array<std::uint32_t> first_lobe; ///< per voxel, and the end

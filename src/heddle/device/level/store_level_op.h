@@ -13,8 +13,8 @@
 namespace heddle {
 
 /// Where voxels of a level stand in a batch's leaves: cells of 8^3 voxels counted from the block's
-/// corner, or the whole block where it is smaller. They follow each other block by block, in a block by
-/// ascending x, y, z, and so do the voxels of a leaf.
+/// corner, or the whole block where it is smaller. They follow each other block by block, in a
+/// block by ascending x, y, z, and so do the voxels of a leaf.
 struct LeafCells {
     int level = 0;
 

@@ -42,8 +42,8 @@ count_set_cells(std::uint64_t footprints, Vec3f in, Vec3f way) {
     return set;
 }
 
-/// Coverage of the cells that a way sweeps. Where rounding set more cells than were covered they are
-/// thinned; where it set none the voxel is even.
+/// Coverage of the cells that a way sweeps. Where rounding set more cells than were covered they
+/// are thinned; where it set none the voxel is even.
 /// @param depth  of the voxel along the axis, TraversalVoxel::depth
 /// @param bits   of the axis's footprint
 /// @param set    of kWayPoints points
@@ -68,13 +68,13 @@ count_set_cells(std::uint64_t footprints, Vec3f in, Vec3f way) {
 
 } // namespace detail
 
-/// Depths along the axes of a ray that takes one way through the voxel: of the cells of each face that
-/// its projection sweeps.
+/// Depths along the axes of a ray that takes one way through the voxel: of the cells of each face
+/// that its projection sweeps.
 ///
-/// A ray along an axis meets one cell, set or not; an oblique one the swept share of set cells is its
-/// coverage c. A covered column is blocked at one place in it: of a way through the part d of the
-/// voxel along the axis c d is blocked. Depths that add up, 1 - (1 - c)^d, hold for fine dust; `many`
-/// is their share. In the bulk of a yarn, fibers behind fibers, they add up and are larger.
+/// A ray along an axis meets one cell, set or not; an oblique one the swept share of set cells is
+/// its coverage c. A covered column is blocked at one place in it: of a way through the part d of
+/// the voxel along the axis c d is blocked. Depths that add up, 1 - (1 - c)^d, hold for fine dust;
+/// `many` is their share. In the bulk of a yarn, fibers behind fibers, they add up and are larger.
 /// @param voxel       its own depths
 /// @param footprints  TraversalLevel::footprints
 /// @param many        fiber_crowding(level)
@@ -100,8 +100,9 @@ count_set_cells(std::uint64_t footprints, Vec3f in, Vec3f way) {
     return depth;
 }
 
-/// How far a level's columns hold many fibers behind each other, in [0, 0.3]: grows with the voxel's
-/// edge in fiber radii. Chosen by transmittance against traced geometry (docs/transport.md).
+/// How far a level's columns hold many fibers behind each other, in [0, 0.3]: grows with the
+/// voxel's edge in fiber radii. Chosen by transmittance against traced geometry
+/// (docs/transport.md).
 [[nodiscard]] inline float fiber_crowding(const TraversalLevel& level) {
     constexpr float kFrom = 4.5f; // log2 of an edge of 23 radii
     constexpr float kRise = 0.15f;

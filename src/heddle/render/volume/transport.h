@@ -16,7 +16,8 @@ enum class Transport : std::uint8_t {
     Threshold, ///< a ray keeps what it drew from voxel to voxel as their faces correlate; Product
                ///< where the file has no correlation
     Footprint, ///< where a ray crosses the voxels' faces decides; Product without footprints
-    Flakes ///< a FlakeMedium in place of the VolumeInstance: one SGGX a voxel, interpolated [Heitz15]
+    /// a FlakeMedium in place of the VolumeInstance: one SGGX a voxel, interpolated [Heitz15]
+    Flakes
 };
 
 /// Names on the command line, in the order of Transport.

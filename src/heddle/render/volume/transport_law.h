@@ -24,13 +24,13 @@ namespace detail {
 
 } // namespace detail
 
-/// What a ray carries through all voxels and levels that it passes: as a free flight what is left of
-/// its threshold, else the depth of what it passed.
+/// What a ray carries through all voxels and levels that it passes: as a free flight what is left
+/// of its threshold, else the depth of what it passed.
 ///
 /// The threshold E is an exponential draw. A voxel stops the ray where the optical depth within the
-/// voxel reaches E. Between voxels E is either used up by the depths, or kept in a run of voxels and
-/// drawn anew at its end. In a run the light that passes is 1 - (the run's largest coverage); its
-/// mean over the draws is the same law as the flight's.
+/// voxel reaches E. Between voxels E is either used up by the depths, or kept in a run of voxels
+/// and drawn anew at its end. In a run the light that passes is 1 - (the run's largest coverage);
+/// its mean over the draws is the same law as the flight's.
 class RayPassage {
 public:
     /// @param flight  the ray is a free flight; else its transmittance is summed
@@ -50,9 +50,10 @@ public:
         threshold_ -= depth;
         return true;
     }
-    /// Comes to the next voxel of a level whose voxels form runs: the run goes on, its threshold kept,
-    /// or another one begins.
-    /// @param chance  gives the probability that the run goes on; not called at a level's first voxel
+    /// Comes to the next voxel of a level whose voxels form runs: the run goes on, its threshold
+    /// kept, or another one begins.
+    /// @param chance  gives the probability that the run goes on; not called at a level's first
+    ///                voxel
     template <typename Chance>
     void continue_run(const Chance& chance) {
         if (in_run_ && random_.uniform() < chance()) return;
@@ -150,8 +151,8 @@ public:
     [[nodiscard]] float keep_chance(int /*axis*/, std::int64_t /*lower*/) const { return kKeep; }
 
 private:
-    /// What neighbours share beyond the cells. Of 0, 0.3, 0.5, 0.7 and 0.8 the value that errs least
-    /// (docs/transport.md).
+    /// What neighbours share beyond the cells. Of 0, 0.3, 0.5, 0.7 and 0.8 the value that errs
+    /// least (docs/transport.md).
     static constexpr float kKeep = 0.5f;
 
     /// Where the ray is at t, in [0, 1]^3 of the voxel.
@@ -167,9 +168,9 @@ private:
     float bulk_;
 };
 
-/// The law of voxels that form runs. At the face between two of them the run goes on with the chance
-/// that Voxels tells: 0 would be the product of independent voxels; 1 a ray that, once through a
-/// voxel, passes all that are no denser.
+/// The law of voxels that form runs. At the face between two of them the run goes on with the
+/// chance that Voxels tells: 0 would be the product of independent voxels; 1 a ray that, once
+/// through a voxel, passes all that are no denser.
 /// @tparam Voxels  CorrelatedVoxels or FootprintVoxels
 template <typename Voxels>
 class RunLaw {

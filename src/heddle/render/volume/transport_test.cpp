@@ -11,8 +11,8 @@ namespace {
 
 using namespace heddle::testing;
 
-/// Random voxels with footprints of 4 x 4 cells, as many bits as their coverage rounds to, and random
-/// correlation.
+/// Random voxels with footprints of 4 x 4 cells, as many bits as their coverage rounds to, and
+/// random correlation.
 std::shared_ptr<const TraversalLevel> random_level(MaterialKind kind, int level) {
     VoxelMap voxels;
     StreamRandom random{3};

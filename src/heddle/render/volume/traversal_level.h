@@ -12,8 +12,8 @@
 
 namespace heddle {
 
-/// One unit of TraversalVoxel::depth in optical depth: coverage is at most 1 - 1 / 2^21 at level 8, so
-/// depths end below 16.
+/// One unit of TraversalVoxel::depth in optical depth: coverage is at most 1 - 1 / 2^21 at level 8,
+/// so depths end below 16.
 inline constexpr float kDepthUnit = 16.0f / 65535.0f;
 
 /// What a ray needs of a voxel that it only passes: one 8-byte read.
@@ -37,8 +37,8 @@ struct TraversalLeaf {
     }
 };
 
-/// One level of an object as rays walk it: leaves of 8^3 voxels in a LeafTable, so that emptiness is
-/// skipped 64 or 8 voxels at a time.
+/// One level of an object as rays walk it: leaves of 8^3 voxels in a LeafTable, so that emptiness
+/// is skipped 64 or 8 voxels at a time.
 ///
 /// Memory: 8 bytes a voxel, 8 a lobe, 96 a leaf, those of the table, and the optional arrays.
 class TraversalLevel {
@@ -82,11 +82,12 @@ public:
     }
     /// No material is of surfaces.
     [[nodiscard]] bool fibers_only() const { return fibers_only_; }
-    /// log2 of the voxel's longest edge over the thinnest fiber's radius; 0 where no radius is known.
+    /// log2 of the voxel's longest edge over the thinnest fiber's radius; 0 where no radius is
+    /// known.
     [[nodiscard]] float fibers_across() const { return fibers_across_; }
     [[nodiscard]] bool has_footprints() const { return !footprints_.empty(); }
-    /// Footprints of 4 x 4 cells along x, y, z, 16 bits each from the lowest on: bit 4 b + a, a and b
-    /// the cell's place on the next two axes.
+    /// Footprints of 4 x 4 cells along x, y, z, 16 bits each from the lowest on: bit 4 b + a, a and
+    /// b the cell's place on the next two axes.
     /// @param v  of a level that has footprints
     [[nodiscard]] std::uint64_t footprints(std::int64_t v) const {
         return footprints_[static_cast<std::size_t>(v)];

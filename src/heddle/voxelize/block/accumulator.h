@@ -51,8 +51,8 @@ public:
     /// The same by its number, (x 32 + y) 32 + z.
     HEDDLE_HOST_INLINE VoxelSums& voxel_at(std::uint32_t cell) { return VoxelTable(*this)[cell]; }
 
-    /// voxel_at() for loops that set many bits: a copy in the loop keeps its two addresses in registers,
-    /// which the vectors, reached through a reference, do not. Until the next reset().
+    /// voxel_at() for loops that set many bits: a copy in the loop keeps its two addresses in
+    /// registers, which the vectors, reached through a reference, do not. Until the next reset().
     class VoxelTable {
     public:
         HEDDLE_HOST_INLINE explicit VoxelTable(BlockSums& block)
@@ -81,7 +81,8 @@ public:
         voxel.lobe.material = material;
         return voxel.lobe;
     }
-    /// The map sums that belong to a lobe of `voxel`; only where the accumulator was made with maps.
+    /// The map sums that belong to a lobe of `voxel`; only where the accumulator was made with
+    /// maps.
     MapSums& maps(const VoxelSums& voxel, const LobeSums& lobe);
 
     [[nodiscard]] Vec3i lo() const { return lo_; }
@@ -92,7 +93,8 @@ public:
         const std::uint16_t slot = table_[number_of(x, y, z)];
         return slot == kNone ? nullptr : &voxels_[slot];
     }
-    /// The row of voxels (x, y, 0 .. kBlockVoxels - 1) relative to lo: kNone, or what `at_slot` takes.
+    /// The row of voxels (x, y, 0 .. kBlockVoxels - 1) relative to lo: kNone, or what `at_slot`
+    /// takes.
     [[nodiscard]] const std::uint16_t* slots(int x, int y) const {
         return &table_[number_of(x, y, 0)];
     }

@@ -20,7 +20,8 @@ struct BlockCounts {
 /// Fits every voxel of the block and appends it to `out`, leaf by leaf.
 ///
 /// Coverage is popcount / columns per axis, occupancy hit / all subvoxels [Fabre26, eq. 12], both
-/// rounded to 16 bits. A lobe's S is the SGGX whose second moment is the pooled one (sggx/moments.h).
+/// rounded to 16 bits. A lobe's S is the SGGX whose second moment is the pooled one
+/// (sggx/moments.h).
 /// Of more than max_lobes materials those whose directions are closest share a lobe.
 BlockCounts fit_block(const BlockSums& sums, const FitOptions& options, VoxelBlock& out);
 

@@ -6,8 +6,8 @@
 
 #include <cstdint>
 
-// The arithmetic of thin chords, over as many chords at once as lanes L have (lanes_*.h): L has the types
-// Real, Int and Mask. Eight lanes and one give the same bits.
+// The arithmetic of thin chords, over as many chords at once as lanes L have (lanes_*.h): L has the
+// types Real, Int and Mask. Eight lanes and one give the same bits.
 
 namespace heddle {
 
@@ -77,8 +77,8 @@ template <typename L>
     return active;
 }
 
-/// Second moment of each chord's directions: the direction turns by `bend` along it, so over the chord
-/// d d^T + bend bend^T / 12, brought back to trace 1.
+/// Second moment of each chord's directions: the direction turns by `bend` along it, so over the
+/// chord d d^T + bend bend^T / 12, brought back to trace 1.
 /// @param out  xx yy zz xy xz yz, 1, 0
 template <typename L>
 HEDDLE_INLINE void chord_moments(const ChordLanes<L>& k,
@@ -100,8 +100,8 @@ HEDDLE_INLINE void chord_moments(const ChordLanes<L>& k,
     out[7] = Real(0.0f);
 }
 
-/// Calls visit(mask, word, length) for each part of the centrelines of active chords that lies in one
-/// voxel, and notes the first four in k.passed.
+/// Calls visit(mask, word, length) for each part of the centrelines of active chords that lies in
+/// one voxel, and notes the first four in k.passed.
 template <typename L, typename Visit>
 HEDDLE_INLINE void
 for_each_chord_voxel(const LatticeUnits& u, ChordLanes<L>& k, const Visit& visit) {
@@ -163,8 +163,8 @@ struct ColumnTerms {
     }
 };
 
-/// Thin chords seen along one axis. `major` is that other axis along which a chord passes more columns,
-/// `minor` the last one.
+/// Thin chords seen along one axis. `major` is that other axis along which a chord passes more
+/// columns, `minor` the last one.
 template <typename L>
 struct ChordProjection {
     typename L::Mask swapped;        ///< major is the later of the two other axes

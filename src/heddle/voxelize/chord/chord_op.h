@@ -67,7 +67,8 @@ HEDDLE_HD inline void mark_columns(const ChordLanes<one::Lanes>& k,
     }
 }
 
-/// Pools the chord's direction, by the directed area 2 r length, in a voxel that its centreline passes.
+/// Pools the chord's direction, by the directed area 2 r length, in a voxel that its centreline
+/// passes.
 template <typename Sums>
 struct PoolPart {
     const BlockWords<one::Lanes>& block;
@@ -84,8 +85,8 @@ struct PoolPart {
 
 } // namespace chord_detail
 
-/// Adds a thin chord to the voxels of a block that it meets: what gather_thin() does with eight, to the
-/// same bits.
+/// Adds a thin chord to the voxels of a block that it meets: what gather_thin() does with eight, to
+/// the same bits.
 /// @param anchor  the voxel that the chord is relative to, relative to the block's lo
 /// @param sums    has or_column(cell, axis, bits); or_subvoxels(cell, word, bits);
 ///                pool(cell, moment, weight), units^2; cell = (x 32 + y) 32 + z

@@ -48,8 +48,8 @@ struct ColumnProjection {
           depth(u.voxel[c]),
           lo(k.lo),
           hi(k.hi) {
-        // Closer to the axis than 1/1000 the cylinder is taken as 1/1000 off it: a turn of less than
-        // 1/100 subvoxel over a voxel's depth, and every quotient below stays finite.
+        // Closer to the axis than 1/1000 the cylinder is taken as 1/1000 off it: a turn of less
+        // than 1/100 subvoxel over a voxel's depth, and every quotient below stays finite.
         float s2 = da * da + db * db;
         if (s2 < 1e-6f) {
             da = 1e-3f;
@@ -63,9 +63,9 @@ struct ColumnProjection {
 
 /// Which of 4 x 4 columns have a centre line that meets the cylinder inside the voxel.
 ///
-/// The line at (a, b) meets the infinite cylinder between depths z_c -+ half, where z_c is its depth
-/// nearest to the axis; the answer is whether this interval, cut to the voxel's depth, reaches into
-/// the axial range [lo, hi].
+/// The line at (a, b) meets the infinite cylinder between depths z_c -+ half, where z_c is its
+/// depth nearest to the axis; the answer is whether this interval, cut to the voxel's depth,
+/// reaches into the axial range [lo, hi].
 /// @param a0, b0  the patch's first column
 /// @return        bit 4 (b - b0) + (a - a0)
 HEDDLE_INLINE std::uint32_t

@@ -50,9 +50,9 @@ HEDDLE_INLINE LanePoint<Real> fiber_point(const FiberConstants<Real>& fiber,
             Real(at.center.z) + px * Real(at.u.z) + py * Real(at.v.z)};
 }
 
-/// A chord's end: a sample, moved outwards by a twelfth of its second difference. A chord between points
-/// of the curve lies inside the bend, by 2/3 of its sagitta in the mean; so moved, its mean distance
-/// from the curve is 0.
+/// A chord's end: a sample, moved outwards by a twelfth of its second difference. A chord between
+/// points of the curve lies inside the bend, by 2/3 of its sagitta in the mean; so moved, its mean
+/// distance from the curve is 0.
 template <typename Real>
 struct ChordEnd {
     LanePoint<Real> at, bend; ///< bend: second difference of the samples

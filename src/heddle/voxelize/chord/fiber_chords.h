@@ -9,10 +9,11 @@
 
 namespace heddle {
 
-/// Largest sagitta of a chord, in units (subvoxel edges). The samples between chords are moved outwards,
-/// in yarns so that a chord's mean distance from its fiber is 0 (then at most 2/3 of this: coverage of
-/// bundles is unbiased), in single curves half as far, so that it is as long as its arc (their volume
-/// is right).                                                              [bench/results/exact.md]
+/// Largest sagitta of a chord, in units (subvoxel edges). The samples between chords are moved
+/// outwards, in yarns so that a chord's mean distance from its fiber is 0 (then at most 2/3 of
+/// this: coverage of bundles is unbiased), in single curves half as far, so that it is as long as
+/// its arc (their volume is right).
+/// [bench/results/exact.md]
 constexpr double kChordSagitta = 1.0 / 2.0;
 
 /// @param yarn  a YarnType, or what crosses of one

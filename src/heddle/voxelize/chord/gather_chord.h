@@ -19,8 +19,8 @@ struct Chord {
     float radius = 0; ///< > 0
 };
 
-/// Thicker than this, a fiber's directions are spread over the subvoxels it fills; thinner, along its
-/// centreline, which then is never far from what it fills. Units.
+/// Thicker than this, a fiber's directions are spread over the subvoxels it fills; thinner, along
+/// its centreline, which then is never far from what it fills. Units.
 constexpr float kThickRadius = 2.0f;
 
 /// Part of the axial range in which the line origin + s dir lies within a voxel grown by `grow`.
@@ -72,7 +72,8 @@ private:
     float inv_step_;
 };
 
-/// Sets the subvoxels whose centres lie in the cylinder, from a patch of columns along z: a run in each.
+/// Sets the subvoxels whose centres lie in the cylinder, from a patch of columns along z: a run in
+/// each.
 /// @param sums  has or_subvoxels(cell, word, bits)
 /// @return      subvoxels in the runs
 template <typename Sums>

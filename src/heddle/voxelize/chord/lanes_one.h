@@ -1,4 +1,5 @@
-// One number at a time, for host and device: the names of lanes_portable.h, and bit for bit the results.
+// One number at a time, for host and device: the names of lanes_portable.h, and bit for bit the
+// results.
 #pragma once
 
 #include <heddle/base/platform.h>

@@ -11,9 +11,9 @@
 
 namespace heddle {
 
-/// What pieces of spans are at most long, units: half a block, so that a long hair visits the blocks
-/// along it and not those of its box, and single precision resolves 1e-5 of a subvoxel beside a
-/// piece's anchor.
+/// What pieces of spans are at most long, units: half a block, so that a long hair visits the
+/// blocks along it and not those of its box, and single precision resolves 1e-5 of a subvoxel
+/// beside a piece's anchor.
 constexpr double kPieceUnits = 128.0;
 
 /// The same in scene units: what a voxelizer's FiberSource is made with.

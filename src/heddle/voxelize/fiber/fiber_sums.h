@@ -25,7 +25,8 @@ struct GatherTarget {
     FiberPaint paint;
 };
 
-/// Sums of one voxel's lobe, and of its maps where there are some (else null), as pool_fiber() adds.
+/// Sums of one voxel's lobe, and of its maps where there are some (else null), as pool_fiber()
+/// adds.
 struct LobeAdder {
     LobeSums& lobe;
     MapSums* maps;
@@ -55,7 +56,8 @@ HEDDLE_HOST_INLINE void pool_moment(BlockSums& block,
     pool_fiber(LobeAdder{lobe, maps}, 0, moment, weight, paint.color);
 }
 
-/// What fibers of one material write to, over a block of the CPU: DenseSums is its twin on the device.
+/// What fibers of one material write to, over a block of the CPU: DenseSums is its twin on the
+/// device.
 struct FiberSums {
     BlockSums& block;
     const FiberPaint& paint;

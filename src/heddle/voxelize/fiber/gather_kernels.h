@@ -25,11 +25,13 @@ struct ChordArrays {
     int count = 0;
 };
 
-/// Adds thin chords to the voxels that they meet: eight or sixteen at once, column by column along each.
+/// Adds thin chords to the voxels that they meet: eight or sixteen at once, column by column along
+/// each.
 /// The same bits with AVX-512, AVX2 and neither; the first that the machine has is used.
 void gather_thin(const ChordArrays& chords, const GatherTarget& target);
 
-/// Fills a tile with the fibers of `parts`, whose number is tile.fibers, at tile.chords + 3 samples.
+/// Fills a tile with the fibers of `parts`, whose number is tile.fibers, at tile.chords + 3
+/// samples.
 /// The same bits with and without AVX2.
 void expand_fibers(FiberTile& tile,
                    std::span<const PlyPart> parts,

@@ -14,8 +14,9 @@ struct SpanSamples {
     double end = 1.0;
 };
 
-/// Adds points on a chord's axis to the subvoxels that hold them, and its direction to their voxels: a
-/// sampling voxelizer without the fiber's thickness                          [Fabre26, 3.2 to 3.4]
+/// Adds points on a chord's axis to the subvoxels that hold them, and its direction to their
+/// voxels: a sampling voxelizer without the fiber's thickness                          [Fabre26,
+/// 3.2 to 3.4]
 /// @param anchor  voxel that the chord is relative to, relative to the block's lo
 inline void gather_samples(const Chord& chord,
                            Vec3i anchor,

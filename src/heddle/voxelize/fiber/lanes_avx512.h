@@ -1,5 +1,5 @@
-// Sixteen numbers at once, for files that are compiled for AVX-512: the same names, and bit for bit the
-// same results, as lanes_portable.h.
+// Sixteen numbers at once, for files that are compiled for AVX-512: the same names, and bit for bit
+// the same results, as lanes_portable.h.
 #pragma once
 
 #include <immintrin.h>

@@ -30,9 +30,9 @@ struct Candidates {
     }
 };
 
-/// Sets a column's bit in each hit lane's voxel, and for z a run of its subvoxels: for all lanes where
-/// most hit, the others in voxels that nobody reads (no branch to guess wrong), else hits first and for
-/// half as many.
+/// Sets a column's bit in each hit lane's voxel, and for z a run of its subvoxels: for all lanes
+/// where most hit, the others in voxels that nobody reads (no branch to guess wrong), else hits
+/// first and for half as many.
 /// @param packed  cell | bit << 16
 /// @param run     first subvoxel's bit | length << 9
 template <typename L, int kDepth>
@@ -143,7 +143,8 @@ inline void mark_columns(const LaneBlock<L>& b, const LaneChords<L>& k) {
         mark_candidates<L, kDepth>(b, k, v, list);
         list.count = 0;
     };
-    // columns along minor that can lie in the strip: alike in all batches, so no branch is guessed wrong
+    // columns along minor that can lie in the strip: alike in all batches, so no branch is guessed
+    // wrong
     int tries = 1;
     while ((k.active & (Real(static_cast<float>(tries)) < v.width)).bits() != 0) ++tries;
     Real i = v.first;

@@ -6,8 +6,8 @@
 #include <bit>
 #include <cstdint>
 
-// Directions of thin chords, as many at once as lanes L have (lanes_*.h), into the voxels that their
-// centrelines pass.
+// Directions of thin chords, as many at once as lanes L have (lanes_*.h), into the voxels that
+// their centrelines pass.
 
 namespace heddle::lane_detail {
 
@@ -51,8 +51,8 @@ inline void set_moments(LaneChords<L>& k, const typename L::Real (&bend)[3]) {
     store_transposed(rows, k.moment);
 }
 
-/// Pools every chord's direction, by the directed area 2 r length, in each voxel that its centreline
-/// passes.
+/// Pools every chord's direction, by the directed area 2 r length, in each voxel that its
+/// centreline passes.
 template <typename L>
 inline void pool_lanes(const LaneBlock<L>& b, LaneChords<L>& k) {
     using Real = typename L::Real;

@@ -17,10 +17,10 @@ namespace heddle {
 // Height maps: a triangle is split into micro-triangles no longer than a subvoxel edge before they
 // are moved along the normal, and streamed.
 //
-// No cracks: an edge has as many pieces as its own length asks for, and its points are computed from
-// its two ends alone, in an order of the ends that both triangles agree on. The grid inside has as
-// many pieces as the longest edge; its border points move to the nearest point of the edge, so that
-// both sides have the same points, and a micro-triangle that this flattens has no hits.
+// No cracks: an edge has as many pieces as its own length asks for, and its points are computed
+// from its two ends alone, in an order of the ends that both triangles agree on. The grid inside
+// has as many pieces as the longest edge; its border points move to the nearest point of the edge,
+// so that both sides have the same points, and a micro-triangle that this flattens has no hits.
 // That holds where both triangles have the same position, normal and uv at the ends of the edge.
 // Along a uv seam, or a hard edge with two normals at a vertex, the sides part by the difference of
 // their heights, or along their two normals.

@@ -14,8 +14,9 @@
 
 namespace heddle {
 
-// From a triangle's hits to the sums of a block's voxels, by one body for host and device. `Sums` is
-// where they go: the sums of one block, in which lobes are the triangle's material's. Of it is asked
+// From a triangle's hits to the sums of a block's voxels, by one body for host and device. `Sums`
+// is where they go: the sums of one block, in which lobes are the triangle's material's. Of it is
+// asked
 //
 //   void or_column(int cell, int axis, std::uint64_t bits)
 //   void or_subvoxels(int cell, int word, std::uint64_t bits)      see VoxelSums
@@ -112,8 +113,8 @@ public:
         sums_.or_subvoxels(cell, sub >> 6, std::uint64_t{1} << (sub & 63));
     }
 
-    /// Pools `count` hits of one share, whose maps all read 1. How many follow each other depends on
-    /// the block: sums that forget count one.
+    /// Pools `count` hits of one share, whose maps all read 1. How many follow each other depends
+    /// on the block: sums that forget count one.
     HEDDLE_INLINE void pool(int cell, const Share& share, std::int64_t count) const {
         if constexpr (kForgets) count = sums_.forget(cell) ? 1 : count;
         add_share(cell, share, count);
@@ -219,8 +220,8 @@ private:
 };
 
 /// The hits of a triangle that is shaded: each by itself where alpha may cut it, else in runs of up
-/// to TriangleSetup::run. What a run is must not depend on the block: its columns lie in one group of
-/// so many, in one row, in one voxel.
+/// to TriangleSetup::run. What a run is must not depend on the block: its columns lie in one group
+/// of so many, in one row, in one voxel.
 template <typename Sums>
 class ShadedHits {
 public:

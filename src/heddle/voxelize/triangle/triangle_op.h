@@ -106,10 +106,10 @@ HEDDLE_HD inline TriangleWork add_displaced(const BlockTriangle<Sums>& t, Scratc
 
 /// Adds what lies in a block of one triangle: one body for host and device.
 ///
-/// Every centre line of a column that the triangle meets in a subvoxel of the block sets the column's
-/// bit and the subvoxel's, and pools the normal, weighted by the area that the hit stands for
-/// (`hit_weight`). Maps' values and anisotropic tangents go to the map sums where there are some. A
-/// hit that alpha cuts away leaves nothing.
+/// Every centre line of a column that the triangle meets in a subvoxel of the block sets the
+/// column's bit and the subvoxel's, and pools the normal, weighted by the area that the hit stands
+/// for (`hit_weight`). Maps' values and anisotropic tangents go to the map sums where there are
+/// some. A hit that alpha cuts away leaves nothing.
 ///
 /// @tparam Kind    the mesh's kind: code for the others would take the device's registers
 /// @param lo,hi    voxels of the block, [lo, hi), at most kBlockVoxels an axis

@@ -11,8 +11,9 @@ namespace heddle {
 // Scan conversion of triangles along the three axes, block by block.
 //
 // Space: lattice coordinates, scene position / subvoxel edge per axis, so that subvoxel (i, j, k)
-// spans [i, i + 1) x [j, j + 1) x [k, k + 1). Vertices are snapped to 1 / 4096 of a subvoxel on that
-// one lattice, so a vertex shared by two triangles is the same point for both and for every block.
+// spans [i, i + 1) x [j, j + 1) x [k, k + 1). Vertices are snapped to 1 / 4096 of a subvoxel on
+// that one lattice, so a vertex shared by two triangles is the same point for both and for every
+// block.
 //
 // Which centre lines a triangle meets is decided in integers. A row of centres takes the two edges
 // that straddle it, and the span between the first centre at or past each crossing: both bounds
@@ -96,7 +97,8 @@ greatest(std::int64_t a, std::int64_t b, std::int64_t c) {
 /// Area, in scene units^2, that a hit along `axis` stands for: |n_a| x a column's cross-section.
 ///
 /// Seen along axis a the triangle has the area |n_a| A, so it is met by |n_a| A / (column section)
-/// centre lines in the mean; summed over the axes the weights come to A (n_x^2 + n_y^2 + n_z^2) = A.
+/// centre lines in the mean; summed over the axes the weights come to A (n_x^2 + n_y^2 + n_z^2) =
+/// A.
 /// @param normal  unit, of the triangle itself, in scene space (not of the lattice)
 [[nodiscard]] HEDDLE_HD inline double hit_weight(Vec3d normal, int axis, Vec3d subvoxel_size) {
     const double section = axis == 0   ? subvoxel_size.y * subvoxel_size.z
@@ -242,8 +244,8 @@ HEDDLE_HD inline void clip_to_depth(const RowSpan& span,
     if (hi + base < static_cast<double>(last)) last = floor_to_int(hi + base) + 1;
 }
 
-/// Index ranges [lo, hi) of the box, of its centre lines that the triangle can meet, relative to the
-/// anchor.
+/// Index ranges [lo, hi) of the box, of its centre lines that the triangle can meet, relative to
+/// the anchor.
 struct ScanRange {
     std::int64_t lo[3], hi[3];               ///< of the box
     std::int64_t center_lo[3], center_hi[3]; ///< cut to the triangle's own
@@ -295,8 +297,9 @@ HEDDLE_HD inline void scan_axis(const ScanTriangle& t, const ScanRange& range, H
 /// subvoxel (i, j, k) of `box`, for each of the three axes.
 ///
 /// (i, j, k) are global subvoxel indices (std::int32_t) along x, y, z; along `axis` (int) it is the
-/// floor of the depth. b0, b1, b2 (float, >= 0, sum 1) weight the vertices. A hit does not depend on
-/// the box: boxes that tile space share out the same hits. Order: by axis, then row, then column.
+/// floor of the depth. b0, b1, b2 (float, >= 0, sum 1) weight the vertices. A hit does not depend
+/// on the box: boxes that tile space share out the same hits. Order: by axis, then row, then
+/// column.
 template <typename Hit>
 HEDDLE_HD inline void scan_triangle(const ScanTriangle& t, const SubvoxelBox& box, Hit&& hit) {
     using namespace scan_detail;

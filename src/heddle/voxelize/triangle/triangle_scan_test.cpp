@@ -243,7 +243,8 @@ TEST(TriangleScan, BarycentricsGiveTheHitsPosition) {
     EXPECT_LT(worst, 1e-3);
 }
 
-// A closed surface: a sphere's octahedral subdivision with random radii, so folds and slivers occur.
+// A closed surface: a sphere's octahedral subdivision with random radii, so folds and slivers
+// occur.
 std::vector<Triangle> closed_mesh(int n, double radius, double noise, std::uint64_t seed) {
     std::map<std::array<int, 3>, Vec3d> corner;
     Random random{{seed, 7}};
