@@ -2,8 +2,9 @@
 """Draws the rooms of cmake/layers.txt as an SVG: python3 tools/draw_rooms.py [--check]
 [docs/images/rooms.svg].
 
-A room stands below all rooms that it may include. A line joins it to those that no other line leads to. The colours are
-the groups of the table. With --check nothing is written: the exit code says whether the file is what would be written.
+A room stands below all rooms that it may include. A line joins it to those that no other line leads
+to. The colours are the groups of the table. With --check nothing is written: the exit code says
+whether the file is what would be written.
 """
 import argparse
 import pathlib
@@ -110,8 +111,8 @@ def count_crossings(rows, pieces):
 
 
 def order_rows(rows, pieces):
-    """Sorts each row by the mean place of the nodes above, then below, and so on; returns the order with the fewest
-    crossings."""
+    """Sorts each row by the mean place of the nodes above, then below, and so on; returns the order
+    with the fewest crossings."""
     above, below = neighbours_of(pieces)
     best, fewest = rows, count_crossings(rows, pieces)
     for sweep in range(ORDER_SWEEPS):
@@ -130,8 +131,8 @@ def order_rows(rows, pieces):
 
 
 def straighten(rows, pieces):
-    """Returns each node's x, which is near to its neighbours'. Where a line only passes it is nearest, so that long lines
-    are straight."""
+    """Returns each node's x, which is near to its neighbours'. Where a line only passes it is
+    nearest, so that long lines are straight."""
     above, below = neighbours_of(pieces)
     x = {node: place for row in rows for node, place in zip(row, offsets(row))}
     for _ in range(STRAIGHTEN_SWEEPS):
@@ -174,12 +175,14 @@ def draw(below, group_of, groups):
                 f'<path d="M{x[node]} {y[node]}v{BOX_HEIGHT}" stroke="#7a8794" stroke-width="1.3"/>'
             )
     for room, group in group_of.items():
-        out.append(f'<rect x="{x[room] - BOX_WIDTH // 2}" y="{y[room]}" width="{BOX_WIDTH}" height="{BOX_HEIGHT}"'
-                   f' rx="4" fill="{COLORS[group]}" stroke="#4a5560"/>')
+        out.append(
+            f'<rect x="{x[room] - BOX_WIDTH // 2}" y="{y[room]}" width="{BOX_WIDTH}" height="{BOX_HEIGHT}"'
+            f' rx="4" fill="{COLORS[group]}" stroke="#4a5560"/>')
         out.append(f'<text x="{x[room]}" y="{y[room] + 17}" text-anchor="middle">{room}</text>')
     for i, name in enumerate(groups):
-        out.append(f'<rect x="{MARGIN}" y="{legend + 24 * i}" width="22" height="16" rx="3" fill="{COLORS[i]}"'
-                   ' stroke="#4a5560"/>')
+        out.append(
+            f'<rect x="{MARGIN}" y="{legend + 24 * i}" width="22" height="16" rx="3" fill="{COLORS[i]}"'
+            ' stroke="#4a5560"/>')
         out.append(f'<text x="{MARGIN + 30}" y="{legend + 24 * i + 13}">{name}</text>')
     return "\n".join(out) + "\n</svg>\n"
 
