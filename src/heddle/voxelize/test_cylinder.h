@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-// Round fibers by their definition, in double: what coverage and volume are measured against.
+// Cylindrical fibers by their definition, in double: the reference for coverage and volume.
 
 namespace heddle::test {
 
@@ -68,8 +68,8 @@ inline double silhouette_in_slab(const ExactCylinder& k, int axis, double z0, do
     return area;
 }
 
-/// Sum, over all voxels of edge `edge` along `axis`, of the silhouettes of fiber cut by voxel: their
-/// faces tile the plane, so a layer of voxels at a time.
+/// Sum, over all voxels of edge `edge` along `axis`, of the silhouettes of fiber cut by voxel:
+/// their faces tile the plane, so a layer of voxels at a time.
 inline double sum_of_silhouettes(const ExactCylinder& k, int axis, double edge) {
     const Vec3d d = normalize(k.to - k.from);
     const double end = k.radius * std::sqrt(std::max(0.0, 1.0 - d[axis] * d[axis]));
@@ -78,7 +78,7 @@ inline double sum_of_silhouettes(const ExactCylinder& k, int axis, double edge) 
     const double inner_lo = std::min(k.from[axis], k.to[axis]) + end; // no flat end between these
     const double inner_hi = std::max(k.from[axis], k.to[axis]) - end;
     double sum = 0.0;
-    double inner = -1.0; // layers without an end are all alike
+    double inner = -1.0; // layers without an end are all equal
     for (double layer = std::floor(lo / edge); layer * edge < hi; ++layer) {
         const double z0 = layer * edge;
         const double z1 = z0 + edge;
