@@ -8,16 +8,16 @@
 namespace heddle {
 namespace {
 
-/// Blocks of one batch: their cells are numbered in 31 bits.
+/// Largest number of blocks of a batch, whose cells are numbered in 31 bits.
 constexpr std::int64_t kMaxBlocks = (std::int64_t{1} << 31) / kVoxelsPerBlock - 1;
 
-/// Part of a block's voxels that are there: cloth has .1 to .4.
+/// Predicted fraction of a block's voxels that are occupied; cloth has 0.1 to 0.4.
 constexpr double kFill = 0.4;
 
-/// The scans that find voxels.
+/// Bytes of the scans that find voxels.
 constexpr std::int64_t kBytesPerCell = (1 + 4) + (2 + 4);
 
-/// Chords of a piece of yarn, about: its frames and counts.
+/// Typical number of chords of a piece of yarn, for its frames and counts.
 constexpr std::int64_t kFramesPerYarn = 20;
 
 } // namespace
@@ -44,7 +44,7 @@ std::int64_t predict_batch_bytes(std::int64_t blocks,
         voxels * std::min<std::int64_t>(materials, needs.made.level0.max_lobes);
     BatchOptions level0 = needs.made;
     level0.levels = 0;
-    // the sums are there while level 0 is written, and gone when it is stored
+    // the sums are in memory while level 0 is written, and are freed before it is stored
     std::int64_t gather = DenseSums::byte_count(blocks, blocks * materials, level0.with_maps()) +
                           blocks * kVoxelsPerBlock * kBytesPerCell +
                           predict_level_bytes(blocks, voxels, lobes, level0);

@@ -13,12 +13,11 @@
 
 namespace heddle {
 
-/// What gathers a primitive: a pass of its own for each kind, and a list of pairs for each pass.
-/// Which primitive it is says its Primitive, as on the CPU.
+/// The kind of a primitive. Each kind is gathered in a pass of its own, with its own list of pairs.
 enum class PrimitiveKind : std::uint8_t {
     Plain,   ///< a piece of a single curve
     Yarn,    ///< a piece of a yarn of fibers
-    Triangle ///< and on: by its mesh's SurfaceKind
+    Triangle ///< first of the triangles' kinds: Triangle + SurfaceKind of the mesh
 };
 constexpr std::size_t kPrimitiveKinds = 5;
 
@@ -29,33 +28,33 @@ constexpr std::size_t kPrimitiveKinds = 5;
     return number_of(PrimitiveKind::Triangle) + static_cast<std::size_t>(kind);
 }
 
-/// What a set's pieces are.
+/// Returns the kind of a set's pieces.
 [[nodiscard]] HEDDLE_HD inline PrimitiveKind kind_of(const CurveSetView& set) {
     return set.length != nullptr ? PrimitiveKind::Yarn : PrimitiveKind::Plain;
 }
 
-/// A primitive and a block of the batch that it touches.
+/// A primitive, and a block of the batch that it touches.
 struct BlockPair {
     Primitive primitive = 0;
-    std::uint32_t slot = 0; ///< of the block in the batch
+    std::uint32_t slot = 0; ///< number of the block in the batch
     std::uint32_t spare = 0;
 };
 static_assert(sizeof(BlockPair) == 16);
 
-/// Counts the blocks of the range that hold primitives: how many of a kind each.
+/// Counts the primitives of each kind in each block of the range.
 struct CountPairs {
-    std::uint32_t* counts[kPrimitiveKinds]; ///< per block of the range; null: no such primitives
+    std::uint32_t* counts[kPrimitiveKinds]; ///< per block of the range; null: no primitives of it
 
     HEDDLE_HD void add(std::size_t kind, Primitive, std::uint64_t block, std::uint32_t) const {
         executor::atomic_add(counts[kind] + block, 1);
     }
 };
 
-/// Lists the pairs of a batch's blocks, each block's together, in any order.
+/// Lists the pairs of a batch, block by block, in any order within a block.
 struct ListPairs {
-    const std::uint32_t* slot_of_block;   ///< per block of the range; kNoSlot: of another batch
-    BatchBlock* blocks;                   ///< gets the materials
-    std::uint64_t* next[kPrimitiveKinds]; ///< per slot: where its next pair goes
+    const std::uint32_t* slot_of_block;   ///< per block of the range; kNoSlot: not in the batch
+    BatchBlock* blocks;                   ///< their materials are set
+    std::uint64_t* next[kPrimitiveKinds]; ///< per slot: position of its next pair
     BlockPair* pairs[kPrimitiveKinds];
 
     static constexpr std::uint32_t kNoSlot = 0xffffffffu;
@@ -71,7 +70,7 @@ struct ListPairs {
     }
 };
 
-/// Walks the pieces of a span: to.add() for each with each block that it may touch.
+/// Calls to.add() for each piece of a span with each block that it may touch.
 template <typename To>
 struct WalkSpanOp {
     FiberView fibers;
@@ -101,7 +100,7 @@ private:
     };
 };
 
-/// Walks a triangle: to.add() for each block that it may touch.
+/// Calls to.add() for a triangle with each block that it may touch.
 template <typename To>
 struct WalkTriangleOp {
     SurfaceView surfaces;

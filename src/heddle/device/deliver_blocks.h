@@ -11,16 +11,16 @@
 
 namespace heddle {
 
-/// What is to be made of a batch's level 0: all levels if the builder takes them built, else level
-/// 0 with the sums that it builds them from.
-/// @param levels  after begin(); null: no levels above 0 are wanted
+/// Returns what to build from a batch's level 0: all levels if the builder accepts built levels,
+/// else level 0 with the sums from which the builder builds them.
+/// @param levels  after begin(); null: no levels above 0 are needed
 [[nodiscard]] BatchOptions batch_options(const FitOptions& fit, const LevelBuilder* levels);
 
-/// Hands a batch's blocks on, several threads at a time.
-/// @param built   by build_batch_levels() with batch_options()
+/// Passes a batch's blocks to the sink and to the level builder, from several threads.
+/// @param built   result of build_batch_levels() with batch_options()
 /// @param first   rank of the batch's first block
-/// @param blocks  of the batch
-/// @param sink    has `levels` for its visitor
+/// @param blocks  blocks of the batch
+/// @param sink    its visitor is `levels`
 /// @param levels  may be null
 void deliver_blocks(const BatchLevels& built,
                     std::size_t first,

@@ -10,7 +10,7 @@ namespace {
 
 using namespace heddle::test;
 
-/// Expects that the levels of a method, and what voxels share, are the CPU's though level 0 is not.
+/// Expects the levels and correlation of the CPU, for a level 0 that was built by a device.
 void expect_parity(const LodOptions& lod, bool correlation) {
     VoxelizeOptions options;
     options.voxels = 80;

@@ -24,11 +24,11 @@ namespace heddle {
 /// @throws Error  Unsupported: device_limitation(); InvalidArgument: options that cannot be
 void check_device_options(const VoxelizeOptions& options, const DeviceOptions& device);
 
-/// Which kinds of primitives there are.
+/// Returns for each kind whether there are primitives of it.
 [[nodiscard]] std::array<bool, kPrimitiveKinds> kinds_of(const VoxelizeContext& context);
 
-/// One voxelization by executors of one kind: geometry goes up once, then batches of blocks are
-/// gathered, fitted and sent back, each by whichever stream is free.
+/// One voxelization by executors of one kind. The geometry is uploaded once; then batches of blocks
+/// are gathered, fitted and downloaded, each by the next stream that is free.
 template <typename Exec>
 class DeviceRun {
 public:
@@ -48,7 +48,7 @@ public:
     [[nodiscard]] std::unique_ptr<VoxelLevel> run(Progress& progress, LevelBuilder* levels);
 
 private:
-    /// What one stream has of its own.
+    /// The data of one stream.
     struct Lane {
         std::unique_ptr<Exec> exec;
         executor::Array<std::uint32_t> slot_of_block;
@@ -70,7 +70,7 @@ private:
     MakeExec make_;
     executor::Budget budget_;
     executor::PhaseTimes times_;
-    std::unique_ptr<Exec> base_; ///< holds what all streams read
+    std::unique_ptr<Exec> base_; ///< owns the data that all streams read
     DeviceGeometry scene_;
     DeviceFibers fibers_;
     DeviceFiberTables tables_;
@@ -180,16 +180,16 @@ void DeviceRun<Exec>::work(std::size_t streams,
             try {
                 run_lane();
             } catch (...) {
-                next = batches.size(); // the others stop too
+                next = batches.size(); // stops the other streams too
                 throw;
             }
         }));
     }
-    for (std::future<void>& lane : lanes) lane.wait(); // what they use outlives them
+    for (std::future<void>& lane : lanes) lane.wait(); // the data must outlive the threads
     for (std::future<void>& lane : lanes) lane.get();
 }
 
-/// A batch that memory does not hold is done in halves.
+/// Processes a batch; if it does not fit in memory, processes its halves.
 template <typename Exec>
 void DeviceRun<Exec>::run_batch(Lane& lane, BatchRange range, Progress& progress) {
     progress.check();
@@ -252,7 +252,7 @@ std::unique_ptr<VoxelLevel> DeviceRun<Exec>::run(Progress& progress, LevelBuilde
     return sink_->finish();
 }
 
-/// Voxelizes by executors of a kind that are made of a Budget alone.
+/// Voxelizes by executors of a kind that is constructed from a Budget.
 /// @param device  memory_bytes is set
 template <typename Exec>
 [[nodiscard]] std::unique_ptr<VoxelLevel> run_on(const Geometry& geometry,

@@ -10,11 +10,12 @@
 
 namespace heddle {
 
-/// The fibers of all yarns of a geometry, one after the other, as FiberTable has them of one.
-/// @tparam Column  what holds the numbers of one kind: a vector, an executor's array, a pointer
+/// The fibers of all yarns of a geometry, one yarn after the other, with the columns of a
+/// FiberTable.
+/// @tparam Column  container of a column: a vector, an executor's array or a pointer
 template <template <typename> class Column>
 struct FiberColumns {
-    Column<std::uint64_t> first{};       ///< per yarn, and the end: its first fiber
+    Column<std::uint64_t> first{};       ///< first fiber of each yarn, and the end
     Column<std::uint64_t> yarn_of_set{}; ///< per set of curves: its first yarn
     Column<std::uint64_t> ply_of_set{};  ///< per set: its first ply
     Column<float> set_fiber_radius{};    ///< per set, model units
@@ -24,7 +25,7 @@ struct FiberColumns {
     Column<std::uint32_t> color{};
 };
 
-/// Calls f(column of a, column of b) for each column.
+/// Calls f(column of a, column of b) for each pair of columns.
 template <typename A, typename B, typename F>
 void for_each_column(A& a, B& b, const F& f) {
     f(a.first, b.first);
@@ -46,17 +47,18 @@ using HostColumn = std::vector<T>;
 template <typename T>
 using PointedColumn = const T*;
 
-/// On the host.
+/// The tables on the host.
 using HostFiberTables = FiberColumns<HostColumn>;
-/// Where an executor works.
+/// The tables in an executor's arrays.
 using DeviceFiberTables = FiberColumns<executor::Array>;
-/// What ops read; crosses to the device as it lies.
+/// The tables for ops, as pointers. It is uploaded as it is.
 using FiberTablesView = FiberColumns<PointedColumn>;
 static_assert(sizeof(FiberTablesView) == 96, "the same on host and device");
 
-/// Places all fibers of a geometry: on the host, since exp and pow differ between machines.
+/// Places all fibers of a geometry, on the host since exp and pow differ between machines.
 [[nodiscard]] HostFiberTables place_all_fibers(const FiberSource& source);
 
+/// Uploads the tables.
 /// @throws Error  OutOfMemory, Device
 template <typename Exec>
 [[nodiscard]] DeviceFiberTables upload_tables(Exec& exec, const HostFiberTables& placed) {
@@ -67,7 +69,7 @@ template <typename Exec>
     return out;
 }
 
-/// Valid while `tables` lives.
+/// Returns the tables as pointers, which are valid while `tables` lives.
 [[nodiscard]] inline FiberTablesView view_of(const DeviceFiberTables& tables) {
     FiberTablesView out;
     for_each_column(tables, out, [](const auto& from, auto& to) { to = from.data(); });

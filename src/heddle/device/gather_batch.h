@@ -11,7 +11,7 @@
 
 namespace heddle {
 
-/// A geometry where executors work, and the lattice that it is voxelized on: read by all of them.
+/// An uploaded geometry and its lattice, which all executors read.
 struct DeviceGeometry {
     FiberView fibers;
     FiberTablesView tables;
@@ -21,15 +21,15 @@ struct DeviceGeometry {
     FitOptions fit;
 };
 
-/// Some blocks that are done at once: what the host knows of them.
+/// The host's description of the blocks that are processed at once.
 struct BlockBatch {
-    std::vector<std::uint32_t> numbers; ///< of the blocks in the range
+    std::vector<std::uint32_t> numbers; ///< numbers of the blocks in the range
     std::vector<BatchBlock> blocks;
-    /// per kind, per block and the end
+    /// [kind][block]: first pair of the block, and the end
     std::array<std::vector<std::uint64_t>, kPrimitiveKinds> first_pair;
 };
 
-/// The primitives of a batch's blocks, kind by kind.
+/// The pairs of a batch's blocks, by kind.
 struct BatchPairs {
     std::array<executor::Array<BlockPair>, kPrimitiveKinds> of;
 };
@@ -41,7 +41,7 @@ struct FillOp {
     HEDDLE_HD void operator()(std::size_t i) const { to[i] = value; }
 };
 
-/// Writes where blocks of the range stand in a batch.
+/// Writes the slot of each of a batch's blocks.
 struct SetSlotsOp {
     const std::uint32_t* numbers;
     std::uint32_t* slot_of_block;
@@ -50,7 +50,7 @@ struct SetSlotsOp {
     }
 };
 
-/// Shows each primitive of the scene with each block that it may touch to `to`.
+/// Calls to.add() for each primitive of the scene with each block that it may touch.
 template <typename Exec, typename To>
 void walk_primitives(Exec& exec, const DeviceGeometry& scene, const To& to) {
     exec.for_each(scene.fibers.span_count,
@@ -59,8 +59,8 @@ void walk_primitives(Exec& exec, const DeviceGeometry& scene, const To& to) {
                   WalkTriangleOp<To>{scene.surfaces, scene.units, scene.range, to});
 }
 
-/// Lists the primitives of a batch's blocks, and gives each block its planes: one a material.
-/// @param slot_of_block  room for a number per block of the range
+/// Lists the primitives of a batch's blocks, and assigns each block its planes, one per material.
+/// @param slot_of_block  has space for a number per block of the range
 template <typename Exec>
 [[nodiscard]] BatchPairs list_pairs(Exec& exec,
                                     const DeviceGeometry& scene,
@@ -93,7 +93,7 @@ template <typename Exec>
     return pairs;
 }
 
-/// Gathers the single round curves of a batch.
+/// Gathers the single curves of a batch.
 template <typename Exec>
 void gather_plain(Exec& exec, const FiberBatch& batch, const executor::Array<BlockPair>& pairs) {
     exec.set_phase("gather of curves");
@@ -138,7 +138,7 @@ void gather_triangles(Exec& exec,
                   GatherTriangleOp<Kind>{scene.surfaces, scene.units, sums, of_kind.data()});
 }
 
-/// Level 0 of a batch of blocks: from primitives to lobes.
+/// Returns level 0 of a batch of blocks, gathered from the primitives and fitted.
 /// @throws Error  OutOfMemory, Device
 template <typename Exec>
 [[nodiscard]] LevelArrays gather_batch(Exec& exec,

@@ -15,17 +15,17 @@
 
 namespace heddle {
 
-/// A yarn's piece in a block, made ready.
+/// A yarn's piece in a block, prepared for gathering.
 struct YarnPair {
     LocalCubic cubic;
     YarnCourse course;
-    std::uint64_t curve; ///< of the set
+    std::uint64_t curve; ///< number in the set
     std::uint32_t set;
     std::uint32_t slot;
-    std::int32_t chords; ///< of each fiber along it
+    std::int32_t chords; ///< number of chords of each fiber
 };
 
-/// What all ops on the fibers of a batch read.
+/// The data that all ops on the fibers of a batch read.
 struct FiberBatch {
     FiberView fibers;
     FiberTablesView tables;
@@ -36,7 +36,7 @@ struct FiberBatch {
         return ChordSpace(units, sums.blocks[slot].size);
     }
     /// Adds a chord of any thickness to a block.
-    /// @param anchor  the voxel that it is relative to
+    /// @param anchor  voxel that the chord's positions are relative to
     HEDDLE_HD void add_chord(std::uint32_t slot,
                              const Chord& chord,
                              Vec3f bend,
@@ -53,7 +53,7 @@ struct FiberBatch {
     }
 };
 
-/// Gathers one piece of a single round curve.
+/// Gathers one piece of a single curve.
 struct GatherPlainOp {
     FiberBatch batch;
     const BlockPair* pairs;
@@ -82,7 +82,7 @@ private:
     };
 };
 
-/// Makes one yarn's piece ready, and counts its frames, its runs of chords and its hairs' cells.
+/// Prepares one yarn's piece, and counts its frames, its runs of chords and the cells of its hairs.
 struct PrepareYarnOp {
     FiberBatch batch;
     const BlockPair* pairs;
@@ -116,7 +116,7 @@ struct PrepareYarnOp {
     }
 };
 
-/// Sets one frame of one yarn's piece: frame g stands where chord g - 1 begins.
+/// Computes one frame of one yarn's piece. Frame g is at the start of chord g - 1.
 struct FrameYarnOp {
     const YarnPair* yarns;
     const std::uint64_t* first_frame; ///< per pair, and the end
@@ -163,11 +163,11 @@ struct GatherYarnOp {
 private:
     using Real = one::Real;
 
-    /// One fiber's part.
+    /// The part of one fiber that an item gathers.
     struct Run {
-        int begin, chords;    ///< first chord of the piece, and how many
-        std::uint64_t number; ///< of the fiber in its yarn
-        std::uint64_t fiber;  ///< in the tables
+        int begin, chords;    ///< first chord in the piece, and number of chords
+        std::uint64_t number; ///< number of the fiber in its yarn
+        std::uint64_t fiber;  ///< number of the fiber in the tables
         const YarnFrame* frames;
     };
 
@@ -207,7 +207,7 @@ private:
     }
     HEDDLE_HD static Vec3f to_vec(const LanePoint<Real>& p) { return {p.x.v, p.y.v, p.z.v}; }
 
-    /// Where a fiber lies at the samples of a run.
+    /// Computes a fiber's positions at the samples of a run.
     class FiberSampler {
     public:
         HEDDLE_HD
@@ -258,7 +258,7 @@ private:
     };
 };
 
-/// Gathers the hair flyaway of one cell of one ply of a yarn's piece, where it has one.
+/// Gathers the hair flyaway, if any, of one cell of one ply of a yarn's piece.
 struct GatherHairOp {
     FiberBatch batch;
     const YarnPair* yarns;

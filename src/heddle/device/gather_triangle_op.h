@@ -8,7 +8,7 @@
 
 namespace heddle {
 
-/// Gathers one triangle in one block: an op a kind, for the device's registers.
+/// Gathers one triangle in one block. There is an op for each kind, which saves registers.
 template <SurfaceKind Kind>
 struct GatherTriangleOp {
     SurfaceView surfaces;

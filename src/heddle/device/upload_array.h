@@ -7,7 +7,7 @@
 
 namespace heddle::upload_detail {
 
-/// Copies n objects to where `exec` works, and points to the copy; null stays null.
+/// Copies n objects to an array of `exec` and sets the pointer to the copy; null stays null.
 template <typename Exec, typename T>
 void replace(Exec& exec, executor::Array<T>& held, const T*& data, std::size_t n) {
     if (data == nullptr) return;

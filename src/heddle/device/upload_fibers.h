@@ -10,9 +10,9 @@
 
 namespace heddle {
 
-/// A FiberView where an executor works, and the arrays that it points to.
+/// A FiberView for an executor, and the arrays that it points to.
 struct DeviceFibers {
-    /// Of one curve set; arrays that the set lacks are empty.
+    /// The arrays of one curve set; those that the set does not have are empty.
     struct Set {
         executor::Array<Vec3f> points, normal;
         executor::Array<std::uint64_t> first, spans;
@@ -24,10 +24,10 @@ struct DeviceFibers {
     std::vector<Set> parts;
     executor::Array<CurveSetView> sets;
     executor::Array<std::uint64_t> first_span;
-    FiberView view; ///< valid while this lives, moved or not
+    FiberView view; ///< valid while this lives, even if it is moved
 };
 
-/// Copies what fibers are made of to where `exec` works.
+/// Uploads the curves of the fibers to arrays of `exec`.
 /// @throws Error  OutOfMemory, Device
 template <typename Exec>
 [[nodiscard]] DeviceFibers upload_fibers(Exec& exec, const FiberSource& source) {
@@ -37,7 +37,7 @@ template <typename Exec>
     std::vector<CurveSetView> sets(out.view.sets, out.view.sets + out.view.set_count);
     for (CurveSetView& set : sets) {
         DeviceFibers::Set& part = out.parts.emplace_back();
-        if (set.curve_count == 0) continue; // nothing of it is read
+        if (set.curve_count == 0) continue; // it is never read
         const std::size_t curves = set.curve_count;
         const std::size_t points = set.first[curves];
         const std::size_t knots = set.spans[curves] + curves;
@@ -55,7 +55,7 @@ template <typename Exec>
     replace(exec, out.sets, from, sets.size());
     out.view.sets = from;
     replace(exec, out.first_span, out.view.first_span, out.view.set_count + 1);
-    exec.wait(); // `sets` is read until then
+    exec.wait(); // `sets` must live until it is copied
     return out;
 }
 

@@ -12,13 +12,13 @@
 namespace heddle {
 namespace {
 
-/// What one span gives, as bits.
+/// The results for one span, as bits.
 struct SpanBits {
     std::uint64_t blocks = 0, path = 0, course = 0;
     friend bool operator==(const SpanBits&, const SpanBits&) = default;
 };
 
-/// Walks a span's pieces as bins and fibers do.
+/// Visits a span's pieces as bins and fibers do.
 struct WalkSpan {
     FiberView fibers;
     LatticeUnits units;

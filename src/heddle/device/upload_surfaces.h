@@ -14,16 +14,16 @@
 
 namespace heddle {
 
-/// A SurfaceView where an executor works, and the arrays that it points to.
+/// A SurfaceView for an executor, and the arrays that it points to.
 struct DeviceSurfaces {
-    /// Of one mesh; arrays that it lacks are empty.
+    /// The arrays of one mesh; those that it does not have are empty.
     struct Mesh {
         executor::Array<Vec3f> positions, normals, move_normals;
         executor::Array<Tangent> tangents;
         executor::Array<Uv> uvs;
         executor::Array<std::array<std::uint32_t, 3>> triangles;
     };
-    /// Of one averaged texture.
+    /// The arrays of one averaged texture.
     struct Texture {
         executor::Array<std::uint8_t> image;
         executor::Array<std::uint16_t> decode;
@@ -36,7 +36,7 @@ struct DeviceSurfaces {
     executor::Array<SurfaceMaps> materials;
     executor::Array<MeshView> meshes;
     executor::Array<std::uint64_t> first_triangle;
-    SurfaceView view; ///< valid while this lives, moved or not
+    SurfaceView view; ///< valid while this lives, even if it is moved
 };
 
 namespace upload_detail {
@@ -55,7 +55,7 @@ DeviceSurfaces::Texture upload_texture(Exec& exec, TextureView& view) {
         replace(exec, part.averages.emplace_back(), level.texels, size_of(level));
     view.levels = levels.data();
     replace(exec, part.levels, view.levels, levels.size());
-    exec.wait(); // `levels` is read until then
+    exec.wait(); // `levels` must live until it is copied
     return part;
 }
 
@@ -77,7 +77,7 @@ DeviceSurfaces::Mesh upload_mesh(Exec& exec, MeshView& view, std::size_t triangl
     return part;
 }
 
-/// Where a view of one of the source's textures is among their copies.
+/// Points a view of one of the source's textures to its copy.
 inline void
 point_to_copy(const SurfaceSource& source, const TextureView* copies, const TextureView*& map) {
     if (map == nullptr) return;
@@ -88,8 +88,7 @@ point_to_copy(const SurfaceSource& source, const TextureView* copies, const Text
 
 } // namespace upload_detail
 
-/// Copies what triangles are made of to where `exec` works: meshes, materials, textures with their
-/// averages.
+/// Uploads the meshes, the materials and the textures with their averages to arrays of `exec`.
 /// @throws Error  OutOfMemory, Device
 template <typename Exec>
 [[nodiscard]] DeviceSurfaces upload_surfaces(Exec& exec, const SurfaceSource& source) {
@@ -120,7 +119,7 @@ template <typename Exec>
     out.view.meshes = meshes.data();
     replace(exec, out.meshes, out.view.meshes, meshes.size());
     replace(exec, out.first_triangle, out.view.first_triangle, out.view.mesh_count + 1);
-    exec.wait(); // what was copied from here is read until then
+    exec.wait(); // local data must live until they are copied
     return out;
 }
 

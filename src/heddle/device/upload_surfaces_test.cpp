@@ -20,8 +20,8 @@
 namespace heddle {
 namespace {
 
-/// Numbers of one voxel, of one material: 3 columns, 8 of subvoxels, a lobe's 7, 12 of its maps. In
-/// each material's are the bits of its own hits.
+/// The numbers of one voxel for one material: 3 words of columns, 8 of subvoxels, 7 of a lobe and
+/// 12 of its maps. Each material has the bits of its own hits.
 struct Dense {
     static constexpr int kSubvoxels = 3, kLobe = 11, kMap = kLobe + LobeField::Count,
                          kWords = kMap + MapField::Count;
@@ -82,8 +82,8 @@ struct SurfaceCase {
 
 using Words = std::vector<std::uint64_t>;
 
-/// What the CPU's sums of a block say, as Dense lays it out. Bits of all materials are in the
-/// first.
+/// The CPU's sums of a block in the layout of Dense. The first material has the bits of all
+/// materials.
 Words words_of(const BlockSums& sums, std::size_t materials) {
     Words words(materials * kPlane);
     for (int cell = 0; cell < BlockSums::kVoxels; ++cell) {
@@ -120,8 +120,8 @@ Words gather_block(executor::HostExecutor& exec, AddToBlock add) {
     return out;
 }
 
-/// All blocks of a scene: through an uploaded view as by the CPU's gatherer.
-/// @return  voxels that were hit
+/// Compares all blocks of a scene by an uploaded view and by the CPU's gatherer.
+/// @return  number of voxels that were hit
 int expect_same_sums(const SurfaceCase& scene) {
     executor::Budget budget(std::int64_t{1} << 32);
     executor::HostExecutor exec(budget);
@@ -160,7 +160,7 @@ double length_of(const Geometry& geometry) {
     return bounds_of(geometry).size().x;
 }
 
-/// The voxels that a geometry's points lie in, and `more` around them.
+/// The range of the voxels that contain a geometry's points, extended by `more` voxels.
 SurfaceCase scene_of(Geometry geometry, Lattice lattice, int more = 1) {
     const Bounds box = bounds_of(geometry);
     SurfaceCase scene{std::move(geometry), lattice, {}, {}};
@@ -186,7 +186,7 @@ Texture noise(std::int32_t width, std::int32_t height, std::int32_t channels, st
     return t;
 }
 
-/// A ball about a point beside the origin, with uv and normals, of a material.
+/// A ball with uv, normals and a material about a point near the origin.
 Mesh ball(std::uint32_t sides, float radius, std::uint32_t material) {
     Mesh m;
     m.material = material;
@@ -213,7 +213,7 @@ Mesh ball(std::uint32_t sides, float radius, std::uint32_t material) {
     return m;
 }
 
-/// All maps, all ways of alpha, turned anisotropy without tangents; a plain ball within.
+/// A scene with all maps, all alpha modes, rotated anisotropy without tangents, and a plain ball.
 Geometry textured_balls() {
     Geometry g;
     g.textures = {noise(64, 48, 4, 1), noise(32, 32, 3, 2), noise(17, 9, 3, 3),

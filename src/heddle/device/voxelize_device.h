@@ -13,36 +13,34 @@
 
 namespace heddle {
 
-/// What a run on the device took.
+/// The costs of a run on the device.
 struct DeviceReport {
-    std::int64_t peak_bytes = 0; ///< of device memory
+    std::int64_t peak_bytes = 0; ///< peak of the device memory in use
     std::int64_t batches = 0;
-    double upload_seconds = 0.0;                        ///< geometry to the device, fibers placed
-    double count_seconds = 0.0;                         ///< primitives counted by block
+    double upload_seconds = 0.0;                        ///< placing fibers, uploading geometry
+    double count_seconds = 0.0;                         ///< counting primitives by block
     double batch_seconds = 0.0;                         ///< the rest
     std::vector<std::pair<std::string, double>> stages; ///< seconds of launches, with time_phases
 };
 
-/// How the device is used. Nothing is required.
+/// How the device is used. All options have defaults.
 struct DeviceOptions {
-    /// of the device that may be in use at once; 0: 9/10 of what is free
+    /// limit of the device memory in use; 0: 9/10 of the free memory
     std::int64_t memory_bytes = 0;
-    int streams = 2; ///< batches that are on their way at once, each by a thread of the host
-    std::int64_t batches = 0;       ///< at least so many; 0: as memory needs
-    bool time_phases = false;       ///< each launch is waited for: slower as a whole
-    DeviceReport* report = nullptr; ///< gets what the run took
+    int streams = 2;          ///< batches that are processed at once, each by a thread of the host
+    std::int64_t batches = 0; ///< smallest number of batches; 0: as memory requires
+    bool time_phases = false; ///< wait for each launch and time it; the run is slower
+    DeviceReport* report = nullptr; ///< receives the costs of the run; may be null
 };
 
-/// Why the device does not do what is asked, though the CPU does: CoverageMode::Mask,
-/// FitMode::Last.
-/// Empty: it does.
+/// Returns why the device does not support the options, which are CoverageMode::Mask or
+/// FitMode::Last; empty if it does.
 [[nodiscard]] std::string device_limitation(const VoxelizeOptions& options);
 
-/// voxelize() by the pipeline of the device, on a CUDA device: the same voxels and levels, bit for
-/// bit.
-/// @param levels  built above level 0 too; null: none
+/// Voxelizes on a CUDA device. Voxels and levels have the same bits as those of voxelize().
+/// @param levels  builder of the levels above 0; may be null
 /// @throws Error  as voxelize(); Unsupported: device_limitation(); OutOfMemory: `memory_bytes` is
-///                below what one block takes; Device: there is none, or it failed
+///                too small for one block; Device: there is no device, or it failed
 [[nodiscard]] std::unique_ptr<VoxelLevel> voxelize_on_cuda(const Geometry& geometry,
                                                            const VoxelizeOptions& options,
                                                            const VoxelizePlan& plan,
@@ -50,7 +48,7 @@ struct DeviceOptions {
                                                            Progress& progress,
                                                            LevelBuilder* levels = nullptr);
 
-/// The same pipeline on the threads of the host: what machines without a GPU test. Slower than
+/// Does the same on the threads of the host, for tests on machines without a GPU. It is slower than
 /// voxelize().
 [[nodiscard]] std::unique_ptr<VoxelLevel> voxelize_on_host_executor(const Geometry& geometry,
                                                                     const VoxelizeOptions& options,

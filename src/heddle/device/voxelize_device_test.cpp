@@ -20,7 +20,7 @@ VoxelizeOptions options_of(std::int64_t voxels) {
     return options;
 }
 
-/// Expects that levels by the host executor hold what those of the CPU hold, level by level.
+/// Expects that the levels by the host executor equal those of the CPU.
 void expect_parity(const Geometry& geometry,
                    const VoxelizeOptions& options,
                    DeviceOptions device = {},

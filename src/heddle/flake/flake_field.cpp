@@ -11,9 +11,9 @@
 namespace heddle {
 namespace {
 
-constexpr std::int32_t kHalo = 2; ///< voxels by which S grows into emptiness
+constexpr std::int32_t kHalo = 2; ///< voxels by which S is extended into empty space
 
-/// Second moment of the normals of a lobe.
+/// Returns the second moment of the normals of a lobe.
 SymmetricMatrix normal_moment(const SggxMatrix& S, MaterialKind kind) {
     const SymmetricMatrix M = second_moment_of(S);
     return kind == MaterialKind::Surface ? M : moment_of_normals(M);
@@ -28,7 +28,7 @@ void add(SymmetricMatrix& sum, const SymmetricMatrix& M, float weight) {
     sum.yz += weight * M.yz;
 }
 
-/// Largest eigenvalue 1, no smaller one than kMinFlake.
+/// Scales S to a largest eigenvalue of 1 and raises smaller ones to at least kMinFlake.
 SggxMatrix scale_flake(const SggxMatrix& S) {
     SymmetricEigen e = decompose(S);
     const double largest = e.value[0];
@@ -38,8 +38,8 @@ SggxMatrix scale_flake(const SggxMatrix& S) {
     return compose(e);
 }
 
-/// Mean over the axes of a voxel's optical depth per scene unit; coverage is capped as `density`
-/// is.
+/// Returns the mean over the axes of a voxel's optical depth per scene unit, with coverage clamped
+/// as for `density`.
 float mean_extinction(const Coverage& c, const Lattice& lattice) {
     const double columns = static_cast<double>(lattice.subvoxels) * lattice.subvoxels;
     const double cap = 1.0 - 0.5 / columns;
@@ -67,13 +67,13 @@ PackedFlake pack_flake(const SggxMatrix& S) {
     return {round(S.xx), round(S.yy), round(S.zz), round(S.xy), round(S.xz), round(S.yz)};
 }
 
-/// A box of voxels with a border, while S grows into its emptiness.
+/// A box of voxels with a border, while S is extended into its empty space.
 struct FlakeField::Draft {
     Vec3i low, size; ///< with the border
     std::vector<float> sigma_t;
     std::vector<SggxMatrix> S;
     std::vector<Vec3f> albedo;
-    std::vector<std::uint8_t> known; ///< 0, or the pass before which it was known
+    std::vector<std::uint8_t> known; ///< 0: unknown; else the first pass that may use it
 
     Draft(Vec3i box_low, Vec3i box_size, Vec3f one_albedo)
         : low(box_low - Vec3i{kHalo, kHalo, kHalo}),
@@ -98,7 +98,7 @@ struct FlakeField::Draft {
     void grow_one(Vec3i p, std::uint8_t pass);
 };
 
-/// One voxel takes the mean of those neighbours that were known before this pass.
+/// Sets one voxel to the mean of the neighbours that were known before this pass.
 void FlakeField::Draft::grow_one(Vec3i p, std::uint8_t pass) {
     SggxMatrix sum{};
     Vec3f color{};
@@ -199,7 +199,7 @@ void FlakeField::drop_equal_albedo() {
     albedo_ = {};
 }
 
-/// Calls visit(number, index) for the voxels of a box.
+/// Calls visit(number, index) for each voxel of a box.
 template <typename Visit>
 void FlakeField::for_each_in_box(Vec3i low, Vec3i size, const Visit& visit) const {
     const Vec3i end = low + size;

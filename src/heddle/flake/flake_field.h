@@ -11,13 +11,14 @@
 
 namespace heddle {
 
-/// One unit of a PackedFlake's entries. Rounded to it, a matrix moves by at most 5e-5 of its
-/// largest eigenvalue: a twentieth of the smallest, so it stays positive definite.
+/// One unit of a PackedFlake's entries. Rounding to it changes a matrix by at most 5e-5 of its
+/// largest eigenvalue, a twentieth of the smallest, so it stays positive definite.
 inline constexpr float kFlakeUnit = 1.0f / 32767.0f;
-/// Smallest eigenvalue of a flake's S, of the largest: seen end on, a fiber hides 3 % of its side.
+/// Smallest ratio of the eigenvalues of a flake's S: seen end on, a fiber covers 3 % of its side
+/// view.
 inline constexpr float kMinFlake = 1e-3f;
 
-/// An SGGX of normals, largest eigenvalue 1: xx yy zz xy xz yz in kFlakeUnit.
+/// An SGGX of normals with largest eigenvalue 1: xx yy zz xy xz yz in units of kFlakeUnit.
 using PackedFlake = std::array<std::int16_t, 6>;
 
 [[nodiscard]] PackedFlake pack_flake(const SggxMatrix& S);
@@ -26,41 +27,43 @@ using PackedFlake = std::array<std::int16_t, 6>;
     return {unit(0), unit(1), unit(2), unit(3), unit(4), unit(5)};
 }
 
-/// Flakes at the centres of a box of voxels, x fastest.
+/// The microflakes at the centres of a box of voxels, x fastest.
 struct FlakeBlock {
     std::vector<float> sigma_t; ///< per scene unit; extinction along w is sigma_t sqrt(w^T S w)
     std::vector<PackedFlake> S;
-    std::vector<Vec3f> albedo; ///< empty where it does not vary
+    std::vector<Vec3f> albedo; ///< empty if it does not vary
 };
 
-/// A voxel grid as one SGGX of flakes a voxel: what a renderer of grids of sigma_t and S takes.
+/// A voxel level as one SGGX of microflakes per voxel, for renderers that take grids of sigma_t and
+/// S.
 ///
-/// A voxel's lobes become one SGGX of normals: fibers' tangents with second moment M are
-/// normals with (I - M) / 2, surfaces' lobes are as they are; the weighted mean of the moments is
-/// fitted. S is scaled to a largest eigenvalue of 1, and sigma_t so that the mean over the axes of
-/// sigma_t sqrt(S_aa) is that of -ln(1 - coverage_a) / h_a. S, and the albedo, grow by two voxels
-/// into emptiness (means of the known of six neighbours) and are isotropic beyond: what lies
-/// between two voxels' centres is interpolated, and S is never 0.
+/// A voxel's lobes are merged into one SGGX of normals: a fiber's tangents with second moment M
+/// become normals with (I - M) / 2, a surface's lobes are unchanged, and S is fitted to the
+/// weighted mean of the moments. S is scaled to a largest eigenvalue of 1, and sigma_t so that the
+/// mean over the axes of sigma_t sqrt(S_aa) is that of -ln(1 - coverage_a) / h_a. Renderers
+/// interpolate between voxel centres, where S must not be 0. So S and the albedo are extended by
+/// two voxels into empty space (the mean of the known ones of six neighbours), and are isotropic
+/// beyond.
 class FlakeField {
 public:
-    /// Copies what it needs of `source`. Memory: 16 bytes a voxel, 3 more where albedo varies.
-    /// @param albedo  of each of the grid's materials, linear
+    /// Copies what it needs of `source`. Memory: 16 bytes per voxel, 3 more if the albedo varies.
+    /// @param albedo  linear albedo of each material of the level
     FlakeField(const VoxelLevel& source, std::span<const Vec3f> albedo);
 
-    /// Voxel indices that hold all voxels: [lo, hi); lo = hi where there are none.
+    /// The range [lo, hi) of indices that contains all voxels; lo = hi if there are none.
     [[nodiscard]] Vec3i lo() const { return lo_; }
     [[nodiscard]] Vec3i hi() const { return hi_; }
     [[nodiscard]] Vec3d voxel_size() const { return voxel_size_; }
     [[nodiscard]] bool albedo_varies() const { return !albedo_.empty(); }
-    /// Where it does not vary.
+    /// Returns the albedo if it does not vary.
     [[nodiscard]] Vec3f albedo() const { return one_albedo_; }
-    /// Corners of the 8^3 leaves that hold voxels.
+    /// Returns the origins of the leaves that contain voxels.
     [[nodiscard]] const std::vector<Vec3i>& origins() const { return origins_; }
 
-    /// Flakes of the voxels [low, low + size). Safe from several threads.
+    /// Sets `out` to the microflakes of the voxels [low, low + size). Thread-safe.
     /// @param size  > 0 on each axis
     void fill(Vec3i low, Vec3i size, FlakeBlock& out) const;
-    /// True where one of those voxels has extinction.
+    /// Returns true if any voxel of [low, low + size) has extinction.
     [[nodiscard]] bool any(Vec3i low, Vec3i size) const;
 
 private:

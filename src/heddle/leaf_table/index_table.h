@@ -7,20 +7,20 @@
 
 namespace heddle {
 
-/// Numbers of cells by their indices, which may lie as far apart as 32 bits allow: a hash table.
+/// A hash table from the indices of cells, any 32-bit integers, to their numbers.
 ///
-/// It is at most half full: a search reads one slot or two on average. Memory: 32 to 64 bytes a
-/// cell. Reading is safe from several threads.
+/// It is at most half full, so that a search reads one or two slots on average. Memory: 32 to 64
+/// bytes per cell. Reading is thread-safe.
 class IndexTable {
 public:
     static constexpr std::uint32_t kNone = 0xffffffff;
 
-    /// Gives a cell the next number: 0, 1, 2 and so on.
-    /// @return  its number; the one that it had before where it is there already
+    /// Adds a cell and gives it the next number: 0, 1, 2 and so on.
+    /// @return  its number; if the cell is in the table already, the number that it has
     std::uint32_t add(Vec3i index);
-    /// @return  the number of a cell; kNone where it is not there
+    /// Returns the number of a cell; kNone if it is not in the table.
     [[nodiscard]] std::uint32_t find(Vec3i index) const;
-    /// How many cells there are.
+    /// Returns the number of cells.
     [[nodiscard]] std::uint32_t size() const { return size_; }
     [[nodiscard]] std::int64_t byte_count() const {
         return static_cast<std::int64_t>(slots_.capacity() * sizeof(Slot));
@@ -32,15 +32,15 @@ private:
         std::uint32_t number = kNone;
     };
     [[nodiscard]] static std::uint32_t hash(Vec3i index);
-    /// Number of the slot that holds a cell, or of the empty one where it belongs.
+    /// Returns the number of the slot that holds a cell, or of the empty slot where it belongs.
     [[nodiscard]] std::size_t place_of(Vec3i index) const;
 
-    std::vector<Slot> slots_ = std::vector<Slot>(2); ///< a power of two
+    std::vector<Slot> slots_ = std::vector<Slot>(2); ///< their number is a power of two
     std::uint32_t size_ = 0;
 };
 
 inline std::uint32_t IndexTable::hash(Vec3i index) {
-    // three odd factors [Teschner 2003], then the high bits into the low ones
+    // three odd factors [Teschner 2003], then the high bits are mixed into the low ones
     const auto word = [](std::int32_t v) { return static_cast<std::uint32_t>(v); };
     std::uint32_t h =
         word(index.x) * 73856093u ^ word(index.y) * 19349663u ^ word(index.z) * 83492791u;

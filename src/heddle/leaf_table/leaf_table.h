@@ -11,11 +11,11 @@
 
 namespace heddle {
 
-/// Leaves of 8^3 voxels by index: a hash table of the tiles that hold any, each with the numbers of
-/// its leaves. Emptiness is known a tile or a leaf at a time.
+/// A table of leaves of 8^3 voxels: a hash table of the tiles that contain leaves, each with the
+/// numbers of its leaves. A lookup tells whether a whole tile or a leaf is empty.
 ///
-/// What a leaf holds is the caller's, in arrays by the leaf's number. Memory: 4 << (3 kTileBits)
-/// bytes a tile and what IndexTable takes. Reading is safe from several threads.
+/// The caller keeps the contents of leaves in arrays by leaf number. Memory: 4 << (3 kTileBits)
+/// bytes per tile and that of the IndexTable. Reading is thread-safe.
 /// @tparam kTileBits  log2 of the leaves along a tile's edge: 3 where rays step over a tile of 64
 ///                    voxels, 4 where they step over one of 128
 template <int kTileBits>
@@ -26,9 +26,9 @@ public:
     static constexpr std::int32_t kTileVoxels = 1 << kTileShift;
     static constexpr std::size_t kTileLeaves = std::size_t{1} << (3 * kTileBits);
 
-    /// Gives a leaf the next number: 0, 1, 2 and so on.
-    /// @param origin  voxel index of its corner; of a leaf that is not there yet
-    /// @throws Error  InvalidArgument: 2^32 - 1 leaves are there already
+    /// Adds a leaf and returns its number: 0, 1, 2 and so on.
+    /// @param origin  voxel index of the leaf's corner; the leaf must not be in the table yet
+    /// @throws Error  InvalidArgument: the table already has 2^32 - 1 leaves
     std::uint32_t add(Vec3i origin) {
         if (size_ == kNone) {
             throw Error(ErrorCode::InvalidArgument, "voxels: 2^32 leaves (limit 2^32 - 1)",
@@ -44,30 +44,31 @@ public:
         return size_++;
     }
 
-    /// What is at a voxel index: a leaf, or how much around it is empty.
+    /// The result of find(): a leaf, or the size of the empty cube around a voxel.
     struct LeafLookup {
-        std::uint32_t leaf = kNone;      ///< its number
-        std::int32_t size = kTileVoxels; ///< edge of the aligned cube that the leaf fills, or that
-                                         ///< is empty
+        std::uint32_t leaf = kNone;      ///< its number; kNone: the cube is empty
+        std::int32_t size = kTileVoxels; ///< edge of the aligned cube, the leaf or an empty one, in
+                                         ///< voxels
     };
     [[nodiscard]] LeafLookup find(Vec3i at) const {
         const std::uint32_t tile = find_tile(tile_of(at));
         if (tile == kNone) return {};
         return {find_in_tile(tile, at), 8};
     }
-    /// In two steps, for a walk that stays in a tile: first the tile's number, kNone where it is
-    /// empty, then that of the leaf at a voxel index inside it.
+    /// find() in two steps, for a traversal that stays in a tile: the first returns the tile's
+    /// number, kNone if it is empty, the second the number of the leaf at a voxel index inside the
+    /// tile.
     /// @param tile  voxel index >> kTileShift
     [[nodiscard]] std::uint32_t find_tile(Vec3i tile) const { return index_.find(tile); }
     [[nodiscard]] std::uint32_t find_in_tile(std::uint32_t tile, Vec3i at) const {
         return leaves_[tile * kTileLeaves + place_in_tile(at)];
     }
 
-    /// How many leaves there are.
+    /// Returns the number of leaves.
     [[nodiscard]] std::uint32_t size() const { return size_; }
-    /// The tiles by number: voxel index >> kTileShift.
+    /// Returns the index of each tile, voxel index >> kTileShift, in the order of tile numbers.
     [[nodiscard]] std::span<const Vec3i> tiles() const { return tiles_; }
-    /// kTileLeaves numbers of leaves a tile, x slowest; kNone where there is none.
+    /// Returns kTileLeaves leaf numbers per tile, x slowest; kNone: no leaf.
     [[nodiscard]] std::span<const std::uint32_t> leaves_by_tile() const { return leaves_; }
     [[nodiscard]] std::int64_t byte_count() const {
         return index_.byte_count() +

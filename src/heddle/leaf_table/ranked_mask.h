@@ -8,11 +8,11 @@
 
 namespace heddle {
 
-/// Which of the 8^3 voxels of a leaf are active, with the counts that give each its number among
-/// them without a search.
+/// The mask of the active voxels among a leaf's 8^3, with counts that give an active voxel's number
+/// without a search.
 struct RankedMask {
     std::array<std::uint64_t, 8> active{}; ///< laid out as VoxelLeaf::active
-    std::array<std::uint16_t, 8> before{}; ///< active voxels in the words before word x
+    std::array<std::uint16_t, 8> before{}; ///< [x]: number of active voxels in the words before x
 
     RankedMask() = default;
     explicit RankedMask(const std::array<std::uint64_t, 8>& words) : active(words) {
@@ -23,8 +23,9 @@ struct RankedMask {
     [[nodiscard]] std::uint32_t count() const {
         return static_cast<std::uint32_t>(before[7] + std::popcount(active[7]));
     }
-    /// Number of a voxel among the active ones in ascending (x, y, z); -1 where it is not active.
-    /// @param at  any index: its lowest three bits count
+    /// Returns the number of a voxel among the active ones in ascending (x, y, z); -1 if not
+    /// active.
+    /// @param at  any voxel index; only its lowest three bits are used
     [[nodiscard]] std::int32_t find(Vec3i at) const {
         const auto x = static_cast<std::size_t>(at.x & 7);
         const int bit = (at.y & 7) * 8 + (at.z & 7);

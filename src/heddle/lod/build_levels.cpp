@@ -21,10 +21,10 @@
 namespace heddle {
 namespace {
 
-/// Levels whose voxels fill whole leaves out of one block.
+/// The coarsest level on which one block consists of whole leaves.
 constexpr int kWholeLeafLevel = 2;
 
-/// CPU time a voxel of level 0 costs its levels, seconds: measured on the sweater, 1024 voxels.
+/// CPU seconds for all levels, per voxel of level 0: measured on the sweater of 1024 voxels.
 constexpr double kSecondsPerVoxel = 6e-7;
 
 CoverageRule rule_of(LodMethod method, bool with_columns) {
@@ -53,7 +53,7 @@ level_options(const LodOptions& options, const VoxelLevelInfo& info, bool with_c
     return out;
 }
 
-/// The box of a level's open voxels.
+/// Returns the box of a level's open voxels.
 IndexBox box_of(const OpenLevel& level) {
     IndexBox box;
     const int n = level.edge();
@@ -68,7 +68,7 @@ IndexBox box_of(const OpenLevel& level) {
     return box;
 }
 
-/// What one thread works with, kept from block to block.
+/// The buffers of one thread, reused from block to block.
 struct Workspace {
     std::array<OpenLevel, kBlockLevel + 1> level;
     LobePool pool;
@@ -124,14 +124,15 @@ std::int64_t count_leaves(const OpenLevel& level) {
     return std::count(there.begin(), there.end(), true);
 }
 
-/// Different cells of 2^shift blocks that hold a block.
+/// Returns the number of cubes of 2^shift blocks per axis that contain a block.
 std::int64_t count_cells(std::span<const Vec3i> blocks, int shift) {
     std::set<std::tuple<int, int, int>> cells;
     for (const Vec3i& b : blocks) cells.emplace(b.x >> shift, b.y >> shift, b.z >> shift);
     return static_cast<std::int64_t>(cells.size());
 }
 
-/// Different rows of blocks along each axis: the silhouettes that columns of large voxels hold.
+/// Returns the number of rows of blocks, summed over the axes: the size of the silhouettes that the
+/// columns of large voxels store.
 std::int64_t count_rows(std::span<const Vec3i> blocks) {
     std::int64_t sum = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -154,7 +155,7 @@ int level_count(Vec3i lo, Vec3i hi) {
 struct LevelBuilder::Impl {
     VoxelLevelInfo info;
     LevelOptions options;
-    int top = 0; ///< coarsest level that is built, as far as blocks can tell
+    int top = 0; ///< coarsest level that is built, judged by the blocks alone
     std::vector<Vec3i> blocks;
     std::vector<std::unique_ptr<BlockStore>> whole; ///< levels 1 to kWholeLeafLevel
     std::vector<std::vector<VoxelBlock>> pieces;    ///< the levels above, from kWholeLeafLevel + 1
@@ -179,8 +180,8 @@ struct LevelBuilder::Impl {
 struct LevelBuilder::Sample {
     std::mutex mutex;
     ObjectPool<Workspace> workspaces;
-    std::array<LevelSize, kBlockLevel> level; ///< 1 to kBlockLevel
-    std::int64_t workspace_bytes = 0;         ///< the largest
+    std::array<LevelSize, kBlockLevel> level; ///< levels 1 to kBlockLevel
+    std::int64_t workspace_bytes = 0;         ///< of the largest workspace
 };
 
 LevelBuilder::LevelBuilder(const LodOptions& options, bool with_columns)
@@ -287,7 +288,7 @@ double LevelBuilder::visit_seconds() const {
     return impl_ ? impl_->seconds : 0.0;
 }
 
-/// Fills what the voxels of a level share with their neighbours; its columns are dropped.
+/// Fills the correlation of a level's voxels and frees the level's columns.
 void LevelBuilder::fill_shared(int level, std::span<VoxelBlock> blocks) {
     Impl& s = *impl_;
     if (!s.options.fields.correlation) return;
@@ -336,10 +337,11 @@ VoxelLevels LevelBuilder::finish(std::unique_ptr<VoxelLevel> level0) {
 
 namespace {
 
-/// Bytes of a block's pieces of leaves and nodes that wait, a level above the blocks.
+/// Bytes per block of the pieces of leaves and nodes that are held on the levels above the blocks.
 constexpr std::int64_t kPieceBytes = 700;
 
-/// Levels up to kBlockLevel by the sample of blocks, the others by counting the blocks' ancestors.
+/// Predicts the size of each level: up to kBlockLevel from the sampled blocks, above by counting
+/// the ancestors of the blocks.
 /// @param sample  sums over the sampled blocks of levels 1 to kBlockLevel
 std::vector<LevelSize>
 predict_levels(std::span<const LevelSize> sample, const LevelPlanInput& input, int top) {
@@ -367,7 +369,7 @@ predict_levels(std::span<const LevelSize> sample, const LevelPlanInput& input, i
     return levels;
 }
 
-/// Bytes of the columns of the voxels that are open at a time above the blocks: two runs a level.
+/// Returns the bytes of the columns of unfinished voxels above the blocks: of two voxels per level.
 std::int64_t predict_open_columns(std::span<const Vec3i> blocks, int top) {
     const std::int64_t rows = count_rows(blocks);
     std::int64_t runs = 0;
@@ -378,7 +380,7 @@ std::int64_t predict_open_columns(std::span<const Vec3i> blocks, int top) {
     return runs * static_cast<std::int64_t>(sizeof(UpperVoxel::Run::element_type));
 }
 
-/// Bytes of all columns of all levels, which correlation keeps until the end.
+/// Returns the bytes of all columns of all levels, which are kept to the end for the correlation.
 std::int64_t predict_kept_columns(const LevelPlanInput& input,
                                   const std::vector<LevelSize>& levels) {
     if (!input.correlation) return 0;
@@ -389,7 +391,7 @@ std::int64_t predict_kept_columns(const LevelPlanInput& input,
     const int top = static_cast<int>(levels.size());
     std::int64_t kept = column_bytes(0) * input.voxels;
     for (int l = 1; l <= std::min(top, kBlockLevel); ++l) kept += column_bytes(l) * voxels(l);
-    if (top > kBlockLevel) { // each level above holds half of the one below, or less
+    if (top > kBlockLevel) { // each level above needs at most half of the memory of the level below
         kept += column_bytes(kBlockLevel) * voxels(kBlockLevel);
     }
     return kept;

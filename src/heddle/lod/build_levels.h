@@ -11,32 +11,34 @@
 
 namespace heddle {
 
-/// Coarsest level that is ever built: 2^24 voxels of level 0 along each axis.
+/// The coarsest level that may be built. Its voxels span 2^24 voxels of level 0 along each axis.
 inline constexpr int kMaxLevel = 24;
 
-/// What the user asks of the levels of detail. Nothing is required.
+/// The user's options for the levels of detail. All have defaults.
 struct LodOptions {
     LodMethod method = LodMethod::Moments;
-    int max_levels = kMaxLevel; ///< above level 0, at most; 0: none
-    int max_lobes = 0;          ///< K, 1 to 8; 0: as level 0 has
-    std::uint64_t seed = 0;     ///< of the methods `random` and `wasserstein`
+    int max_levels = kMaxLevel; ///< largest number of levels above level 0; 0: none
+    int max_lobes = 0;          ///< K, 1 to 8; 0: the K of level 0
+    std::uint64_t seed = 0;     ///< used by the methods `random` and `wasserstein`
 };
 
 struct BuiltBlock;
 struct LevelOptions;
 
-/// Levels above 0 that an object has: until at most two voxels per axis are left.
-/// @param lo, hi  its first and last voxel of level 0, inclusive
+/// Returns the number of levels above 0 that an object has: the last has at most two voxels per
+/// axis.
+/// @param lo, hi  first and last voxel of level 0 per axis, inclusive
 [[nodiscard]] int level_count(Vec3i lo, Vec3i hi);
 
 /// Builds the levels of detail over blocks of level 0, in one pass over them and in any order.
 ///
-/// A block's levels 1 to 5 are built at once when the block is there, the levels above when the
-/// last child of a voxel is. Sums are integers and children are taken in a fixed order: threads do
-/// not show, nor does a region in the voxels whose children it holds.              [docs/lod.md]
+/// Levels 1 to 5 of a block are built when the block arrives. A voxel of a level above is built
+/// when its last child arrives. Sums are integers and children are merged in a fixed order, so the
+/// result does not depend on threads. Voxels whose children all lie in a region are the same as
+/// without the region. [docs/lod.md]
 class LevelBuilder final : public BlockVisitor {
 public:
-    /// @param with_columns  blocks will come with columns and sums
+    /// @param with_columns  true: the blocks will have columns and sums
     explicit LevelBuilder(const LodOptions& options, bool with_columns = true);
     ~LevelBuilder() override;
     LevelBuilder(const LevelBuilder&) = delete;
@@ -49,26 +51,28 @@ public:
     void sample(const VoxelLevelInfo& info, Vec3i index, const VoxelBlock& block) override;
     [[nodiscard]] LevelPlan plan(const LevelPlanInput& input) override;
 
-    /// What levels that come by accept() are built with, after begin(). Null: blocks have to be
-    /// visited, since the method is not `moments`, columns are missing, or neighbours share
-    /// something.
+    /// Returns the options for building the levels that accept() takes; call it after begin().
+    /// Null: blocks must be visited instead, since the method is not `moments`, columns are
+    /// missing, or the correlation is computed.
     [[nodiscard]] const LevelOptions* options_of_built() const;
-    /// Levels that accept() wants of each block, after begin(): 0 to kBlockLevel.
+    /// Returns how many levels of each block accept() needs, 0 to kBlockLevel; call it after
+    /// begin().
     [[nodiscard]] int built_levels() const;
-    /// True if it wants BuiltBlock::top too.
+    /// Returns true if accept() needs BuiltBlock::top too.
     [[nodiscard]] bool wants_top() const;
-    /// Takes a block whose levels are built, in place of visit(); from several threads.
-    /// @param rank   as visit()
+    /// Takes a block whose levels are already built, instead of visit(). Called from several
+    /// threads.
+    /// @param rank   position of the block in begin()'s list
     /// @param block  level 0; sums are not needed
-    /// @param built  taken apart
+    /// @param built  its contents are moved from
     void accept(std::size_t rank, const VoxelBlock& block, BuiltBlock& built);
 
-    /// The levels above 0, after the last visit.
+    /// Builds what is left of the levels. Call once, after the last visit.
     /// @param level0  the blocks that were visited
-    /// @return        level 0 and those above it
+    /// @return        level 0 and the levels above it
     [[nodiscard]] VoxelLevels finish(std::unique_ptr<VoxelLevel> level0);
 
-    /// Time that visits have taken so far, summed over threads, seconds.
+    /// Returns the time of all visits so far, summed over threads, in seconds.
     [[nodiscard]] double visit_seconds() const;
 
 private:

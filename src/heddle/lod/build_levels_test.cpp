@@ -41,7 +41,7 @@ Key parent_of(Vec3i at, int level) {
     return {at.x >> level, at.y >> level, at.z >> level};
 }
 
-/// What a voxel of a level must hold, pooled from level 0 without the tree.
+/// The expected contents of a voxel of a level, pooled directly from level 0.
 struct Truth {
     std::array<std::set<std::pair<int, int>>, 3> columns;
     std::int64_t hits = 0;
@@ -294,7 +294,7 @@ TEST(BuildLevels, WhereALevelCannotHaveWhatNeighboursShareNoneHas) {
     LodOptions naive;
     naive.method = LodMethod::Naive;
     Progress silent;
-    VoxelLevels cut = build(swatch(), options); // fewer levels than there will be, and no masks
+    VoxelLevels cut = build(swatch(), options); // fewer levels than will be built, and no masks
     cut.resize(2);
     for (VoxelBlock& block : *cut[0]->blocks_in_memory()) {
         block.columns = {};
@@ -340,7 +340,7 @@ TEST(BuildLevels, WithoutColumnsTransparenciesMultiplyAlongAndAverageAcross) {
     const VoxelLevels built = rebuild_levels(std::move(levels), {}, false, silent);
     ASSERT_EQ(built.size(), 2u);
     const Content parent = content_of(*built[1]).at({0, 0, 0});
-    // neither axis x nor y or z has the two behind each other: a quarter of each, twice
+    // the two are not behind each other along any axis: each covers a quarter of every face
     EXPECT_NEAR(parent.coverage.x, 32768 / 2, 1);
     EXPECT_NEAR(parent.coverage.y, 16384 / 2, 1);
     EXPECT_NEAR(parent.coverage.z, 8192 / 2, 1);
@@ -350,7 +350,7 @@ TEST(BuildLevels, WithoutColumnsTransparenciesMultiplyAlongAndAverageAcross) {
 TEST(BuildLevels, CrossedBundlesKeepTwoLobesUpToTheTop) {
     CurveSet set;
     for (int i = 0; i < 40; ++i) {
-        for (int j = 0; j < 10; ++j) { // one bundle above the other, with a gap
+        for (int j = 0; j < 10; ++j) { // one bundle above the other with a gap between
             const float u = 0.05f * static_cast<float>(i);
             const float w = 0.05f * static_cast<float>(j);
             add_curve(set, {{0.0f, u, w}, {2.0f, u, w}});

@@ -8,10 +8,10 @@
 
 namespace heddle {
 
-/// The levels of one block above 0, built elsewhere than in LevelBuilder::visit(): by a device.
+/// The levels above 0 of one block, built by a device instead of LevelBuilder::visit().
 struct BuiltBlock {
-    std::array<VoxelBlock, kBlockLevel> level; ///< 1 to kBlockLevel, as store_level() gives them
-    std::unique_ptr<UpperVoxel> top;           ///< of kBlockLevel; null where the block is empty
+    std::array<VoxelBlock, kBlockLevel> level; ///< levels 1 to kBlockLevel, as from store_level()
+    std::unique_ptr<UpperVoxel> top; ///< the voxel of kBlockLevel; null if the block is empty
 };
 
 } // namespace heddle

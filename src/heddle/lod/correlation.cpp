@@ -19,7 +19,7 @@ IndexTable number(std::span<const Vec3i> index) {
 
 constexpr std::size_t kNone = ~std::size_t{0};
 
-/// Number of the voxel at `at` in its block; kNone where it is not there.
+/// Returns the number in its block of the voxel with index `at`; kNone if there is none.
 std::size_t find_voxel(const VoxelBlock& block, Vec3i at) {
     const Vec3i origin{at.x & ~7, at.y & ~7, at.z & ~7};
     const auto key = [](Vec3i o) { return std::tuple(o.x, o.y, o.z); };

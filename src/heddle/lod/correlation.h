@@ -9,38 +9,39 @@
 
 namespace heddle {
 
-/// How far two voxels behind each other hide the same: with that probability a ray that was let
-/// through by the first is let through by the second whenever it covers no more.
+/// Returns the correlation rho of the coverage of two voxels behind each other. With probability
+/// rho, a ray that passes the first also passes the second, if the second covers no more.
 ///
-/// rho = (c1 + c2 - c1 c2 - u) / (c1 + c2 - c1 c2 - max(c1, c2)), u the covered share of the union
-/// of their columns: 0 independent (or less), 1 the one inside the other.   [findings: threshold
-/// transport]
-/// @param first, second, both  columns set in either and in the union
-/// @param columns              of a face
-/// @return                     255 = 1; 255 where a face is empty or full, and rho means nothing
+/// rho = (c1 + c2 - c1 c2 - u) / (c1 + c2 - c1 c2 - max(c1, c2)), where u is the covered fraction
+/// of the union of their columns. 0: independent (or negative); 1: one covers a part of what the
+/// other covers.
+/// @param first, second, both  covered columns of the first, of the second and of their union
+/// @param columns              columns of a face
+/// @return                     255 = 1; 255 also if a face is empty or full and rho is undefined
 [[nodiscard]] std::uint8_t
 correlation_of(std::int64_t first, std::int64_t second, std::int64_t both, double columns);
 
-/// The columns of one block's voxels at one level, 3 x words each, in the order of the stored
+/// The columns of one block's voxels on one level, 3 x words per voxel, in the order of the stored
 /// voxels.
 using KeptColumns = std::vector<std::uint64_t>;
 
 /// Fills VoxelBlock::correlation of a level up to kBlockLevel.
-/// @param index    of each block
-/// @param blocks   stored voxels of each, whole leaves or parts
-/// @param kept     columns of each
-/// @param level    of the voxels
-/// @param columns  of a voxel's face
+/// @param index    index of each block
+/// @param blocks   stored voxels of each block, in whole leaves or in parts of leaves
+/// @param kept     columns of each block
+/// @param level    level of the voxels
+/// @param columns  columns of a voxel's face
 void fill_correlation(std::span<const Vec3i> index,
                       std::span<VoxelBlock> blocks,
                       std::span<const KeptColumns> kept,
                       int level,
                       double columns);
 
-/// The same for a level above kBlockLevel.
-/// @param index   of each voxel
-/// @param blocks  stored form of each, or empty
-/// @param kept    columns of each, empty where there is no voxel
+/// Fills VoxelBlock::correlation of a level above kBlockLevel.
+/// @param index    index of each voxel
+/// @param blocks   stored form of each voxel, or empty
+/// @param kept     columns of each voxel; empty if there is none
+/// @param columns  columns of a voxel's face
 void fill_upper_correlation(std::span<const Vec3i> index,
                             std::span<VoxelBlock> blocks,
                             std::span<const std::array<UpperVoxel::Runs, 3>> kept,

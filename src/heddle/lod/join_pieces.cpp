@@ -8,7 +8,7 @@
 namespace heddle {
 namespace {
 
-/// A leaf of a piece, and where its next voxel stands.
+/// A leaf of a piece, and the position of its next voxel in the piece's arrays.
 struct Part {
     Vec3i origin;
     const VoxelBlock* piece = nullptr;
@@ -28,7 +28,7 @@ void copy(const std::vector<T>& from, std::size_t at, std::size_t count, std::ve
     to.insert(to.end(), first, first + static_cast<std::ptrdiff_t>(count));
 }
 
-/// Moves the part's next voxel to the end of the block.
+/// Appends the part's next voxel to the block and advances the part.
 void take_voxel(Part& part, bool with_order, VoxelBlock& out) {
     const VoxelBlock& from = *part.piece;
     const std::size_t lobes = from.lobe_count[part.voxel];

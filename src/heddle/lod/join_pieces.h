@@ -6,8 +6,8 @@
 
 namespace heddle {
 
-/// Blocks of 32^3 voxels out of pieces that hold parts of leaves, each voxel in one of them. The
-/// pieces are taken apart.
+/// Returns blocks of 32^3 voxels, joined from pieces that hold parts of leaves. Each voxel is in
+/// one piece only. The pieces are consumed.
 [[nodiscard]] std::vector<VoxelBlock> join_pieces(std::vector<VoxelBlock> pieces);
 
 } // namespace heddle

@@ -21,7 +21,7 @@ std::uint64_t hash_of(Vec3i i, std::uint64_t seed) {
     return hash64(hash64(seed, word(i.x), word(i.y)), word(i.z));
 }
 
-/// What a method's level holds of a chosen parent.
+/// A chosen parent as one method's level stores it.
 struct Taken {
     Coverage coverage;
     std::array<Lobe, kMaxLobes> lobes{};
@@ -34,11 +34,11 @@ struct Taken {
 
 struct TakenMethod {
     std::string name;
-    std::vector<LevelErrors> levels;        ///< counts alone
-    std::vector<std::vector<Taken>> parent; ///< by level - 1, then as Impl::parents
+    std::vector<LevelErrors> levels;        ///< only the counts are set
+    std::vector<std::vector<Taken>> parent; ///< [level - 1][number in Impl::parents]
 };
 
-/// What one method errs on one parent.
+/// The errors of one method for one parent.
 struct ParentErrors {
     DirectionError direction;
     double lost = 0.0;
@@ -47,7 +47,7 @@ struct ParentErrors {
 
 using Key = std::pair<std::uint64_t, Vec3i>;
 
-/// Of all voxels those of least hash, in Z-order.
+/// Returns the `wanted` voxels with the smallest hashes, in Z-order.
 std::vector<Vec3i> choose_voxels(const VoxelLevel& level, int wanted, std::uint64_t seed) {
     const auto n = static_cast<std::size_t>(wanted);
     const auto less = [](const Key& a, const Key& b) { return a.first < b.first; };
@@ -85,7 +85,7 @@ Taken take_voxel(const VoxelIndex& level, Vec3i at) {
     return out;
 }
 
-/// Errors of a voxel's lobes, by weight of what is of tangents and what of normals.
+/// Returns the errors of a voxel's lobes: of tangents and normals, averaged by weight.
 ParentErrors
 direction_errors(const Taken& taken, const ParentTruth& truth, const NormalMaterials& normals) {
     ParentErrors out;
@@ -119,7 +119,7 @@ std::array<std::uint16_t, 3> faces_of(const Coverage& c) {
     return {c.x, c.y, c.z};
 }
 
-/// Means, medians and extremes over the parents.
+/// Sets the means, medians and extremes over the parents.
 void sum_up(const std::vector<ParentErrors>& parents, bool with_coverage, LevelErrors& out) {
     out.parents = static_cast<int>(parents.size());
     const double n = std::max(1.0, static_cast<double>(parents.size()));
@@ -161,10 +161,11 @@ struct LevelReporter::Impl {
     const VoxelLevels* file;
     LevelReportOptions options;
     NormalMaterials normals{};
-    std::vector<std::vector<Vec3i>> parents; ///< by level - 1, in Z-order
+    std::vector<std::vector<Vec3i>> parents; ///< [level - 1], in Z-order
     std::vector<TakenMethod> methods;
 
-    /// Truths of a level's parents: sums of the children's where `below` has all of these.
+    /// Returns the reference of a parent: the sum of its children's if `below` is not empty.
+    /// @param below  references of all voxels of the level below, or empty
     [[nodiscard]] ParentTruth
     truth_of(int level, Vec3i at, const std::vector<ParentTruth>& below) const {
         if (below.empty()) return pool_truth(finest, level, at, normals);
@@ -178,7 +179,7 @@ struct LevelReporter::Impl {
         return sum;
     }
 
-    /// What a level's coverage is compared with.
+    /// Returns what a level's coverage is compared with.
     [[nodiscard]] CoverageTruth coverage_truth(int level) const {
         if (finest.source().info().fields.masks) {
             return level <= kMaxUnionLevel ? CoverageTruth::Union : CoverageTruth::None;
@@ -192,7 +193,7 @@ struct LevelReporter::Impl {
     measure_level(int level, std::vector<ParentTruth>& truths, Progress& progress) const;
 };
 
-/// The true coverage of a level's parents; empty where it is not known.
+/// Returns the true coverage of a level's parents; empty if it is not known.
 std::vector<std::array<std::uint16_t, 3>> LevelReporter::Impl::coverages(int level) const {
     const std::vector<Vec3i>& at = parents[static_cast<std::size_t>(level - 1)];
     const CoverageTruth from = coverage_truth(level);
@@ -211,8 +212,8 @@ std::vector<std::array<std::uint16_t, 3>> LevelReporter::Impl::coverages(int lev
     return out;
 }
 
-/// Errors of each method, parent by parent.
-/// @param truths  in: all voxels' of the level below, or none; out: the parents'
+/// Returns the errors by method and parent.
+/// @param truths  in: references of all voxels of the level below, or empty; out: of the parents
 std::vector<std::vector<ParentErrors>> LevelReporter::Impl::measure_level(
     int level, std::vector<ParentTruth>& truths, Progress& progress) const {
     const auto l = static_cast<std::size_t>(level - 1);
@@ -227,7 +228,7 @@ std::vector<std::vector<ParentErrors>> LevelReporter::Impl::measure_level(
         truths[i] = truth_of(level, at[i], below);
         for (std::size_t m = 0; m < methods.size(); ++m) {
             const Taken& taken = methods[m].parent[l][i];
-            std::size_t same = 0; // the file's own lobes are often those of a method
+            std::size_t same = 0; // a method's lobes are often those of the file
             while (!methods[same].parent[l][i].same_lobes(taken)) ++same;
             ParentErrors& mine = errors[m][i];
             mine = same < m ? errors[same][i] : direction_errors(taken, truths[i], normals);
@@ -300,7 +301,7 @@ std::vector<MethodErrors> LevelReporter::measure(Progress& progress) {
             sum_up(errors[m], s.coverage_truth(level) != CoverageTruth::None, out[m].levels[l]);
         }
         const bool all = static_cast<std::int64_t>(s.parents[l].size()) == out[0].levels[l].voxels;
-        if (!all) truths.clear(); // the next level's voxels have children that were not measured
+        if (!all) truths.clear(); // some children of the next level's voxels were not measured
     }
     return out;
 }

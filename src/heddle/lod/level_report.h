@@ -16,23 +16,24 @@ namespace heddle {
 
 /// What the coverage of coarse voxels is compared with.
 enum class CoverageTruth : std::uint8_t {
-    Union, ///< of all columns of the finest level, to the bit
-    File,  ///< no columns are kept: what the file's own levels hold
-    None   ///< neither is there
+    Union, ///< the exact union of all columns of the finest level
+    File,  ///< the file's own levels, as it has no columns
+    None   ///< nothing: neither exists, or the level is above kMaxUnionLevel
 };
 
-/// How far one method's level is from the finest. Means and extremes are over the chosen parents.
+/// The errors of one method's level against the finest. Means and extremes are over the chosen
+/// parents.
 struct LevelErrors {
     int level = 0;
-    std::int64_t voxels = 0; ///< of the level
+    std::int64_t voxels = 0; ///< voxels of the level
     std::int64_t lobes = 0;
-    int parents = 0;     ///< voxels that were measured
+    int parents = 0;     ///< number of voxels that were measured
     double sigma = 0.0;  ///< mean of DirectionError::sigma
-    double cells = 0.0;  ///< mean of DirectionError::cells; the truth's own noise is about .016
+    double cells = 0.0;  ///< mean of DirectionError::cells; the reference has noise of about 0.016
     double moment = 0.0; ///< median of DirectionError::moment
     double moment_worst = 0.0;
-    /// mean share of directed area whose kind, tangents or normals, no lobe has: it is not in the
-    /// errors above
+    /// mean share of directed area whose kind (tangents or normals) no lobe has; the errors above
+    /// do not include it
     double lost = 0.0;
     std::optional<double> coverage; ///< mean of |c - truth| over parents and axes
     std::optional<double> coverage_worst;
@@ -45,24 +46,25 @@ struct MethodErrors {
 };
 
 struct LevelReportOptions {
-    int parents = 2000; ///< voxels that are measured on a level, at most; the same for all methods
+    int parents = 2000; ///< largest number of voxels measured per level; the same for all methods
     std::uint64_t seed = 0;
 };
 
-/// Measures levels of detail by brute force against all that the finest level holds below a voxel.
+/// Measures levels of detail by brute force against all voxels of the finest level below a voxel.
 ///
-/// Truth of directions: the finest lobes below a parent, weighed by their sums where the file has
-/// such (then S is fitted to these, unquantized), else by share times mean depth as
-/// rebuild_levels() has it. Lobes of tangents and of normals are measured apart, then averaged by
-/// weight. A method's lobes are taken as stored, packed.
+/// The reference for directions is all finest lobes below a parent. If the file has their sums,
+/// they are weighted by them and S is fitted to them, unquantized; else they are weighted by share
+/// times mean depth, as in rebuild_levels(). Lobes of tangents and of normals are measured
+/// separately and averaged by weight. The lobes of a method are used as stored, in packed form.
 ///
-/// From the first level of which all voxels are measured on, truths are sums of the children's: the
-/// finest lobes are pooled about 1.4 times in all, 3 us each and core. Memory: 20 KiB a parent.
+/// Above the first level whose voxels are all measured, references are sums over the children. Each
+/// finest lobe is pooled about 1.4 times in all, which takes 3 us of one core. Memory: 20 KiB per
+/// parent.
 class LevelReporter {
 public:
-    /// @param finest  level 0 of all that is taken; must outlive this
-    /// @param file    the levels that coverage is compared with where there are no columns; may be
-    ///                null, else must outlive this
+    /// @param finest  level 0 of all methods; must outlive this
+    /// @param file    the levels that coverage is compared with if there are no columns; must
+    ///                outlive this; may be null
     LevelReporter(const VoxelLevel& finest,
                   const VoxelLevels* file,
                   const LevelReportOptions& options);
@@ -70,15 +72,18 @@ public:
     LevelReporter(const LevelReporter&) = delete;
     LevelReporter& operator=(const LevelReporter&) = delete;
 
-    /// Takes what the chosen parents hold; the levels may be dropped then. The first call chooses
-    /// them.
-    /// @param levels  of the same finest level, at least two
-    /// @throws Error  InvalidArgument: other voxels than the first call's
+    /// Copies the lobes of the chosen parents, so that the levels may be dropped afterwards. The
+    /// first call chooses the parents.
+    /// @param name    name of the method
+    /// @param levels  at least two levels, built over `finest`
+    /// @throws Error  InvalidArgument: the voxels are not those of the first call
     void take(const std::string& name, const VoxelLevels& levels);
 
+    /// Returns the errors of all methods, in the order of take().
     /// @throws Error  Cancelled
     [[nodiscard]] std::vector<MethodErrors> measure(Progress& progress);
 
+    /// Returns what the coverage of level 1 is compared with.
     [[nodiscard]] CoverageTruth coverage_truth() const;
 
 private:
@@ -86,8 +91,9 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// Blocks of a source, chosen by seed, that hold about so many voxels: a part to measure slow
-/// methods on. Ascending numbers; all blocks where there are fewer voxels.
+/// Returns the numbers of blocks of a level, chosen by `seed`, that hold about `voxels` voxels in
+/// total: a part to measure slow methods on. The numbers are ascending. If the level has fewer
+/// voxels, all blocks are returned.
 [[nodiscard]] std::vector<std::size_t>
 choose_blocks(const VoxelLevel& source, std::int64_t voxels, std::uint64_t seed);
 

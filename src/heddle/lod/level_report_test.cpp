@@ -50,7 +50,8 @@ std::vector<MethodErrors> report(const VoxelLevels& levels, int parents) {
     return reporter.measure(silent);
 }
 
-/// Two voxels of one parent, each with a lobe of its material, and a third to have a level above.
+/// Two voxels of one parent, each with a lobe of its own material, and a third, so that there is a
+/// level above.
 VoxelLevels pair_of(const Lobe& a, const Lobe& b, MaterialKind second) {
     auto grid = std::make_unique<MemoryLevel>();
     grid->info().materials.resize(2);
@@ -176,7 +177,7 @@ TEST(LevelReport, PerpendicularNeedlesErrByTheAreaOfOneLobeForBoth) {
     const std::vector<MethodErrors> methods = reporter.measure(silent);
     EXPECT_FALSE(methods[0].levels[0].coverage); // nothing to compare with
     EXPECT_LT(methods[0].levels[0].sigma, 0.002);
-    // one of two parents holds the pair: a ring in place of the two errs by .042  [docs/sggx.md]
+    // one of two parents holds the pair: a ring instead has an error of 0.042  [docs/sggx.md]
     EXPECT_NEAR(methods[1].levels[0].sigma, 0.042 / 2.0, 0.003);
     EXPECT_LT(methods[1].levels[0].moment_worst, 0.01);
 }

@@ -9,18 +9,19 @@
 
 namespace heddle {
 
-/// Some blocks of another source, or all, without a copy: levels can be built over it while the
-/// other is kept.
+/// Refers to some or all blocks of another level without copying them, so that levels can be built
+/// over it and the other level is kept.
 class LevelSubset final : public VoxelLevel {
 public:
-    /// All blocks.
+    /// Refers to all blocks.
     /// @param whole  must outlive this
     explicit LevelSubset(const VoxelLevel& whole) : whole_(whole) {
         info_ = whole.info();
         for (std::size_t b = 0; b < whole.block_count(); ++b) blocks_.push_back(b);
     }
-    /// Some; voxels are counted.
-    /// @param blocks  numbers, each below whole.block_count()
+    /// Refers to some blocks and counts their voxels.
+    /// @param whole   must outlive this
+    /// @param blocks  numbers of blocks, each below whole.block_count()
     LevelSubset(const VoxelLevel& whole, std::vector<std::size_t> blocks)
         : whole_(whole), blocks_(std::move(blocks)) {
         info_ = whole.info();
@@ -42,7 +43,7 @@ private:
     std::vector<std::size_t> blocks_;
 };
 
-/// The same levels once more, none copied.
+/// Returns levels that refer to the blocks of `levels` without copying them.
 /// @param levels  must outlive the result
 [[nodiscard]] inline VoxelLevels share_levels(const VoxelLevels& levels) {
     VoxelLevels out;

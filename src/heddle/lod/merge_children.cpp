@@ -17,7 +17,7 @@ SymmetricMatrix plus(const SymmetricMatrix& a, const SymmetricMatrix& b) {
     return {a.xx + b.xx, a.yy + b.yy, a.zz + b.zz, a.xy + b.xy, a.xz + b.xz, a.yz + b.yz};
 }
 
-/// Gives the sums of weight `sums.weight` the mean moment `M`.
+/// Sets the moment of `sums` so that its mean by weight is `M`.
 void set_moment(DirectionSums& sums, const SymmetricMatrix& M) {
     const auto w = static_cast<double>(sums.weight);
     const float entries[6]{M.xx, M.yy, M.zz, M.xy, M.xz, M.yz};
@@ -30,7 +30,7 @@ SymmetricMatrix outer(Vec3f d) {
     return {d.x * d.x, d.y * d.y, d.z * d.z, d.x * d.y, d.x * d.z, d.y * d.z};
 }
 
-/// Shares of the pooled weight and the kind that all lobes are brought to.
+/// The lobes' shares of the pooled weight, and the kind that all lobes are converted to.
 struct Shares {
     std::array<float, kMaxPool> of{};
     bool normals = false;
@@ -53,7 +53,8 @@ Shares share(LobePool& pool) {
     return shares;
 }
 
-/// One lobe whose moment is made from the children's by `moment_of(lobe)` and `finish(sum)`.
+/// Merges the pool into one lobe with the moment finish(weighted mean of moment_of(child's
+/// moment)).
 template <typename MomentOf, typename Finish>
 void merge_by_mean(LobePool& pool,
                    bool with_maps,
@@ -64,11 +65,11 @@ void merge_by_mean(LobePool& pool,
     for (std::size_t i = 0; i < static_cast<std::size_t>(pool.count); ++i) {
         sum = plus(sum, scaled(moment_of(detail::mean_moment(pool.sums[i])), shares.of[i]));
     }
-    reduce_by_moments(pool, 1, with_maps); // weight, material and maps
+    reduce_by_moments(pool, 1, with_maps); // for weight, material and maps
     set_moment(pool.sums[0], finish(sum));
 }
 
-/// One child's heaviest lobe speaks for all.
+/// Replaces the pool by the heaviest lobe of one child, chosen at random.
 void choose_child(LobePool& pool,
                   const std::array<int, 9>& first,
                   bool with_maps,

@@ -7,18 +7,17 @@
 
 namespace heddle {
 
-/// How the lobes of up to eight voxels become those of their parent.
+/// How the lobes of up to eight voxels are merged into those of their parent.
 enum class LodMethod : std::uint8_t {
-    Moments, ///< SGGX-H: the closest second moments merge, which is exact, until K are left
-    /// SGGX-H of the paper: closest histograms of samples, re-fitted [Fabre26, 4.4]
-    Wasserstein,
-    Single,     ///< baseline: one SGGX, re-fitted at every level                     [Fabre26, 4.3]
-    Naive,      ///< baseline: the mean direction and the mean coverage
-    Random,     ///< baseline: one child's lobe, as Houdini's rasterizer keeps one direction
-    Interpolate ///< baseline: one SGGX, linear in S                                  [Heitz15]
+    Moments,     ///< SGGX-H: merges the closest second moments, exactly, until K are left
+    Wasserstein, ///< SGGX-H of the paper: merges closest sampled histograms   [Fabre26, 4.4]
+    Single,      ///< baseline: one SGGX, re-fitted at every level             [Fabre26, 4.3]
+    Naive,       ///< baseline: the mean direction and the mean coverage
+    Random,      ///< baseline: the lobe of one child, like Houdini's rasterizer
+    Interpolate  ///< baseline: one SGGX, the mean of the children's matrices S  [Heitz15]
 };
 
-/// Names in the order of LodMethod, as the command line and files have them.
+/// The names on the command line and in files, in the order of LodMethod.
 inline constexpr std::array<const char*, 6> kLodMethodNames{
     "moments", "wasserstein", "single", "naive", "random", "interpolate"};
 

@@ -12,7 +12,7 @@
 namespace heddle {
 namespace {
 
-/// Leave an error of 3e-5 in a moment, where packing has left 1e-3.
+/// Number of steps that leaves an error of 3e-5 in a moment; packing leaves one of 1e-3.
 constexpr int kMomentSteps = 3;
 
 void set_sums(DirectionSums& sums, const SymmetricMatrix& M, double weight) {
@@ -37,7 +37,7 @@ MapSums sums_of(const LobeMaps& maps, const PackedSggx& tangents, std::int64_t w
 }
 
 void open_lobes(const BlockVoxel& voxel, const LevelOptions& options, OpenLevel& out) {
-    constexpr double kOneVoxel = 67108864.0; // 64 units^2 at a depth of 1; no unit is known here
+    constexpr double kOneVoxel = 67108864.0; // 64 units^2 at a depth of 1; the true unit is unknown
     const VoxelBlock& stored = voxel.block;
     double per_weight = 0.0;
     if (stored.moments.empty()) {
@@ -69,7 +69,8 @@ void open_lobes(const BlockVoxel& voxel, const LevelOptions& options, OpenLevel&
     }
 }
 
-/// The parent's voxel of up to eight children; false where none is there.
+/// Sets the numbers of a parent's up to eight children; -1: no such child.
+/// @return  false: there are no children
 bool find_children(const OpenLevel& below, Vec3i parent, std::array<int, 8>& child) {
     bool any = false;
     for (int c = 0; c < 8; ++c) {
@@ -295,7 +296,7 @@ void append_voxel(const OpenLevel& level,
     append_lobes(pool, voxel.order, options.fields, fits, out);
 }
 
-/// Index below `edge` of the voxels of a level that lie in the leaf that `i` does.
+/// Returns the end of the range of voxels, at most `edge`, that lie in the same leaf as voxel `i`.
 constexpr int leaf_end(int i, int edge) {
     return std::min(edge, (i / 8 + 1) * 8);
 }

@@ -13,34 +13,35 @@
 
 namespace heddle {
 
-/// Level whose voxels are as large as a block.
+/// The level whose voxels are as large as a block.
 inline constexpr int kBlockLevel = 5;
 static_assert(kBlockVoxels == 1 << kBlockLevel);
 
 /// How the coverage of a parent follows from its children.
 enum class CoverageRule : std::uint8_t {
-    Union,   ///< exact: columns OR-ed along the axis, side by side across it
-    Product, ///< no columns: transparencies multiply along the axis, average across it
-    Mean     ///< the mean of the eight, as `naive` has it
+    Union,   ///< exact: columns are OR-ed along the axis and placed side by side across it
+    Product, ///< without columns: transparencies are multiplied along the axis, averaged across it
+    Mean     ///< the mean of the eight children, for the method `naive`
 };
 
-/// What is the same for all voxels of a pyramid.
+/// What all levels of an object share while they are built.
 struct LevelOptions {
     MergeOptions merge;
     CoverageRule coverage = CoverageRule::Union;
-    VoxelFields fields;    ///< of the levels above 0: no masks
-    MaterialSet normals{}; ///< the materials whose lobes are of normals
-    Lattice lattice;       ///< of level 0
+    VoxelFields fields;    ///< fields of the levels above 0, without masks
+    MaterialSet normals{}; ///< the materials whose lobes describe normals
+    Lattice lattice;       ///< lattice of level 0
     std::uint64_t seed = 0;
 };
 
-/// Mean of -ln(1 - c) over the axes: stands in for the directed area where a file has no sums.
-/// @param subvoxels  per voxel axis: c is at most 1 - 1 / (2 columns)
+/// Returns the mean of -ln(1 - c) over the axes, which replaces the directed area if a file has no
+/// sums.
+/// @param subvoxels  subvoxels per voxel axis; c is clamped to 1 - 1 / (2 columns)
 [[nodiscard]] double mean_depth(const Coverage& c, int subvoxels);
 
-/// What a voxel is before it is stored, beside its columns.
+/// A voxel before it is stored, without its columns.
 struct OpenVoxel {
-    std::int64_t hits = 0; ///< subvoxels
+    std::int64_t hits = 0; ///< number of occupied subvoxels
     Vec3d seen;            ///< Product: 1 - coverage; Mean: coverage; else unused
     std::uint32_t first_lobe = 0;
     std::uint32_t order = 0; ///< VoxelBlock::merge_order
@@ -49,17 +50,18 @@ struct OpenVoxel {
 
 /// The voxels of one level in one block, unquantized, while the level above is built from them.
 ///
-/// Columns along an axis are 4^level words of 8 x 8 bits (level 0's, or less with fewer subvoxels),
-/// in Z-order: word (q, p) of the other two axes p < q, bits of q first. So a child's words are one
-/// quarter of its parent's, and joining them is one loop of OR.
+/// Columns along an axis are 4^level words in Z-order: word (q, p) of the other two axes p < q,
+/// bits of q first. A word has the 8 x 8 bits of a voxel of level 0 (fewer bits if it has fewer
+/// subvoxels). So a child's words are one quarter of its parent's and are joined by one loop of
+/// ORs.
 struct OpenLevel {
     static constexpr std::uint16_t kNone = 0xffff;
 
     int level = 0;
     Vec3i origin;                    ///< the block's corner in voxels of this level
-    std::vector<std::uint16_t> slot; ///< by (x edge + y) edge + z: kNone or a voxel's number
+    std::vector<std::uint16_t> slot; ///< [(x edge + y) edge + z]: kNone or a voxel's number
     std::vector<OpenVoxel> voxels;
-    std::vector<std::uint64_t> columns; ///< 3 x words() a voxel; Union only
+    std::vector<std::uint64_t> columns; ///< 3 x words() per voxel; Union only
     std::vector<DirectionSums> lobes;
     std::vector<MapSums> maps; ///< per lobe; with map sums only
 
@@ -68,14 +70,14 @@ struct OpenLevel {
     [[nodiscard]] std::size_t cell(Vec3i at) const {
         return static_cast<std::size_t>((at.x * edge() + at.y) * edge() + at.z);
     }
-    /// Empties it for a block. @param block  its index
+    /// Removes all voxels and prepares it for a block. @param block  its index
     void reset(int level_in, Vec3i block);
-    /// Words along `axis` of a voxel.
+    /// Returns the words along `axis` of a voxel.
     [[nodiscard]] std::span<std::uint64_t> words_of(std::size_t voxel, int axis) {
         return std::span(columns).subspan((3 * voxel + static_cast<std::size_t>(axis)) * words(),
                                           words());
     }
-    /// Appends the words along all axes of a voxel.
+    /// Appends the words of a voxel along all axes to `to`.
     void append_words(std::size_t voxel, std::vector<std::uint64_t>& to) const {
         const auto first = columns.begin() + static_cast<std::ptrdiff_t>(3 * voxel * words());
         to.insert(to.end(), first, first + static_cast<std::ptrdiff_t>(3 * words()));
@@ -86,14 +88,15 @@ struct OpenLevel {
     }
 };
 
-/// Which quarter of the parent's columns along `axis` child (x, y, z), each 0 or 1, fills.
+/// Returns which quarter of the parent's columns along `axis` belongs to child (x, y, z), each 0 or
+/// 1.
 [[nodiscard]] HEDDLE_HD constexpr int quarter(Vec3i child, int axis) {
     const int p = axis == 0 ? 1 : 0;
     const int q = axis == 2 ? 1 : 2;
     return 2 * child[q] + child[p];
 }
 
-/// part / whole for levels whose counts pass 64 bits in fraction16.
+/// Returns fraction16(part, whole) for counts with which fraction16() would overflow.
 /// @param whole  an integer
 [[nodiscard]] HEDDLE_HD inline std::uint16_t wide_fraction16(std::int64_t part, double whole) {
     if (whole < 0x1p46) return fraction16(part, static_cast<std::int64_t>(whole));
@@ -101,21 +104,24 @@ struct OpenLevel {
     return static_cast<std::uint16_t>(share < 65535.0 ? share : 65535.0);
 }
 
-/// Adds what child (x, y, z) shows to a parent that started as open_parent() gives it.
+/// Adds the hits of all children to a parent, and their `seen` by the coverage rule.
+/// @param child  number 4 x + 2 y + z; null: no such child
 void join_seen(OpenVoxel& parent, CoverageRule rule, const std::array<const OpenVoxel*, 8>& child);
 
-/// Takes level 0 of a block out of what is stored. Without sums, moments are those of the stored S.
-/// @param block  its index
+/// Makes level 0 of a block from the stored block. If it has no sums, moments are those of the
+/// stored S.
+/// @param block  index of the block
 void open_block(const VoxelBlock& stored, Vec3i block, const LevelOptions& options, OpenLevel& out);
 
-/// Builds a level from the one below it.
+/// Builds a level from the level below it.
 void build_level(const OpenLevel& below,
                  const LevelOptions& options,
                  LobePool& pool,
                  OpenLevel& out);
 
-/// Appends the voxels of a level to a block, leaf by leaf: from level 3 on parts of leaves.
-/// @param kept  gets their columns, 3 x words() a voxel; null: they are not kept
+/// Appends the voxels of a level to a block, leaf by leaf. From level 3 on these are parts of
+/// leaves.
+/// @param kept  their columns are appended to it, 3 x words() per voxel; may be null
 void store_level(const OpenLevel& level,
                  const LevelOptions& options,
                  LobePool& pool,
@@ -123,7 +129,7 @@ void store_level(const OpenLevel& level,
                  VoxelBlock& out,
                  std::vector<std::uint64_t>* kept = nullptr);
 
-/// Appends a voxel's footprints.
+/// Appends a voxel's footprints to a block.
 void append_footprints(const OpenLevel& level,
                        std::size_t voxel,
                        const LevelOptions& options,
@@ -131,11 +137,11 @@ void append_footprints(const OpenLevel& level,
 
 [[nodiscard]] std::int64_t count_bits(std::span<const std::uint64_t> words);
 
-/// Seed of a voxel's random numbers.
+/// Returns the seed of a voxel's random numbers.
 [[nodiscard]] std::uint64_t seed_of(const LevelOptions& options, int level, Vec3i index);
 
-/// Appends what is stored of a voxel but its lobes and footprints.
-/// @param covered  columns set along each axis; Union only
+/// Appends all stored data of a voxel except its lobes and footprints.
+/// @param covered  number of covered columns along each axis; Union only
 void append_coverage(const OpenVoxel& voxel,
                      const std::array<std::int64_t, 3>& covered,
                      int level,

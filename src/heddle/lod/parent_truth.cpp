@@ -10,9 +10,9 @@
 namespace heddle {
 namespace {
 
-/// Points over all lobes of a parent, but each gets its least. A parent's truth and the sum of its
-/// children's, whose lobes get more, are .016 apart in L1 (.07 at most); with twice the points
-/// .009.
+/// Points for all lobes of a parent together; each lobe gets at least kMinPoints. The reference of
+/// a parent and the sum of its children's, whose lobes get more points, differ by 0.016 in L1 (0.07
+/// at most); with twice the points by 0.009.
 constexpr std::int64_t kPoints = 65536;
 constexpr std::int64_t kMinPoints = 64;
 
@@ -20,7 +20,7 @@ int points_of(std::int64_t lobes) {
     return static_cast<int>(std::clamp(kPoints / lobes, kMinPoints, std::int64_t{kLobePoints}));
 }
 
-/// The lobe whose moment is what was pooled: S before it was packed.
+/// Returns the lobe that was fitted to `sums`, with S as it was before packing.
 MixtureLobe lobe_of(const LobeMoment& sums) {
     const double scale = 1.0 / static_cast<double>(sums.weight);
     const auto mean = [&](std::size_t k) {
@@ -75,7 +75,7 @@ pool_truth(const VoxelIndex& finest, int level, Vec3i index, const NormalMateria
         for (const Lobe& lobe : v.lobes()) shares += lobe.weight;
         for (std::size_t i = 0; i < v.lobe_count(); ++i) {
             const Lobe& stored = v.lobes()[i];
-            if (sums && moments[i].weight <= 0) continue; // of a file that was tampered with
+            if (sums && moments[i].weight <= 0) continue; // only in a damaged file
             const MixtureLobe lobe =
                 sums ? lobe_of(moments[i])
                      : MixtureLobe{unpack(stored.sggx),

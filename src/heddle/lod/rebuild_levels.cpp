@@ -12,14 +12,13 @@
 namespace heddle {
 namespace {
 
-/// Puts what `old` holds of its voxels' columns, coverage and what neighbours share, in the place
-/// of what was made of level 0's.
+/// Replaces the coverage, footprints and correlation in `made` by those of `old`.
 /// @throws Error  BadFile: the old level has other voxels
 void keep_columns(const VoxelLevel& old, VoxelLevel& made) {
     std::vector<VoxelBlock>* const blocks = made.blocks_in_memory();
     if (blocks == nullptr) return;
     LeafTable<3> table;
-    std::vector<std::pair<std::size_t, std::size_t>> leaves; // block and number there
+    std::vector<std::pair<std::size_t, std::size_t>> leaves; // block, number in the block
     VoxelBlock scratch;
     for (std::size_t b = 0; b < old.block_count(); ++b) {
         const VoxelBlock& block = old.block(b, scratch);
@@ -62,7 +61,7 @@ void keep_columns(const VoxelLevel& old, VoxelLevel& made) {
     }
 }
 
-/// Takes away what neighbours share, where levels above cannot have it.
+/// Removes footprints and correlation from a level.
 void drop_shared(VoxelLevel& level) {
     VoxelLevelInfo info = level.info();
     info.fields.footprints = 0;
@@ -76,7 +75,7 @@ void drop_shared(VoxelLevel& level) {
     }
 }
 
-/// The blocks of a source in Z-order, with their indices.
+/// The blocks of a level in Z-order, with their indices.
 struct SourceOrder {
     std::vector<std::size_t> number;
     std::vector<Vec3i> index;
@@ -136,7 +135,7 @@ rebuild_levels(VoxelLevels old, const LodOptions& options, bool exact, Progress&
         if (masks || naive || l == 0 || l >= old.size()) continue;
         keep_columns(*old[l], *levels[l]);
     }
-    if (naive || (!masks && old.size() < levels.size())) { // some levels cannot have them
+    if (naive || (!masks && old.size() < levels.size())) { // some levels cannot have these fields
         for (const auto& level : levels) drop_shared(*level);
     }
     return levels;

@@ -14,7 +14,7 @@ std::size_t octant(Vec3i i) {
     return static_cast<std::size_t>((i.x & 1) << 2 | (i.y & 1) << 1 | (i.z & 1));
 }
 
-/// The union of two ascending lists of runs.
+/// Returns the union of two ascending lists of runs.
 UpperVoxel::Runs join(UpperVoxel::Runs a, UpperVoxel::Runs b) {
     if (a.empty()) return b;
     if (b.empty()) return a;
@@ -46,12 +46,12 @@ UpperVoxel::Runs copy(const UpperVoxel::Runs& runs) {
     return out;
 }
 
-/// Puts the children's runs side by side across the axis, and joins them along it.
+/// Returns the children's runs, side by side across the axis and OR-ed along it.
 UpperVoxel::Runs
 join_children(std::array<std::unique_ptr<UpperVoxel>, 8>& child, int axis, int level) {
     const std::uint64_t per_quarter = std::uint64_t{1} << (2 * (level - 1 - kBlockLevel));
     UpperVoxel::Runs out;
-    for (int place = 0; place < 4; ++place) { // ascending: the whole list is
+    for (int place = 0; place < 4; ++place) { // in this order the list is ascending
         UpperVoxel::Runs here;
         for (int c = 0; c < 8; ++c) {
             UpperVoxel* from = child[static_cast<std::size_t>(c)].get();
@@ -65,7 +65,7 @@ join_children(std::array<std::unique_ptr<UpperVoxel>, 8>& child, int axis, int l
     return out;
 }
 
-/// The stored form of one voxel: a leaf of its own, which is joined to others later.
+/// Stores one voxel as a leaf of its own, which is joined with others later.
 void store_voxel(const UpperVoxel& upper,
                  const LobePool& pool,
                  int level,
@@ -126,7 +126,7 @@ UpperLevels::UpperLevels(std::span<const Vec3i> blocks,
     std::vector<std::uint32_t>* parents = &parent_of_block_;
     std::vector<std::uint32_t> of_nodes;
     for (int level = kBlockLevel + 1; level <= top; ++level) {
-        std::vector<Vec3i> here; // children of one voxel follow each other
+        std::vector<Vec3i> here; // the children of a voxel are consecutive in `below`
         std::vector<int> children;
         parents->clear();
         for (const Vec3i i : below) {
@@ -180,7 +180,7 @@ void UpperLevels::take(std::size_t rank, std::unique_ptr<UpperVoxel> voxel) {
     for (std::size_t l = 0; l < levels_.size(); ++l) {
         Node& node = levels_[l].nodes[number];
         node.child[octant(index)] = std::move(voxel);
-        if (node.waits.fetch_sub(1) != 1) return; // someone else brings the last one
+        if (node.waits.fetch_sub(1) != 1) return; // another thread delivers the last child
         voxel = close(node, static_cast<int>(l) + kBlockLevel + 1, number);
         index = node.index;
         number = node.parent;

@@ -11,14 +11,13 @@
 
 namespace heddle {
 
-/// One voxel of a level above the blocks' own, or of theirs, while its parent waits for it.
+/// One voxel of level kBlockLevel or above, until its parent is built.
 struct UpperVoxel {
-    /// Columns along one axis: those words that are not all zero, in runs of as many as a block
-    /// has.
-    /// Memory is the silhouette's, however large the voxel.
+    /// Columns along one axis, in runs of as many words as a block has. Runs of zeros are left out,
+    /// so memory grows with the silhouette and not with the size of the voxel.
     static constexpr std::size_t kRunWords = std::size_t{1} << (2 * kBlockLevel);
     using Run = std::unique_ptr<std::array<std::uint64_t, kRunWords>>;
-    using Runs = std::vector<std::pair<std::uint64_t, Run>>; ///< by place in Z-order, ascending
+    using Runs = std::vector<std::pair<std::uint64_t, Run>>; ///< ascending position in Z-order
 
     OpenVoxel voxel;
     std::vector<DirectionSums> lobes;
@@ -26,31 +25,31 @@ struct UpperVoxel {
     std::array<Runs, 3> columns;
 };
 
-/// The levels above the blocks' own: each voxel is built when the last of its children arrives, by
-/// the thread that brings it, and then its children are dropped. Blocks that come in Z-order leave
-/// few voxels open: about 2 a level.
+/// Builds the levels above kBlockLevel. A voxel is built when its last child arrives, by the thread
+/// that delivers the child; then its children are freed. If blocks arrive in Z-order, only about
+/// two voxels per level are unfinished at any time.
 class UpperLevels {
 public:
     /// Called with each finished voxel, from several threads.
-    /// @param number  of the voxel in its level, below count(level)
+    /// @param number  number of the voxel in its level, below count(level)
     using Store = std::function<void(int level, std::size_t number, VoxelBlock&)>;
 
-    /// @param blocks  in Z-order (voxel/z_order.h)
-    /// @param top     last level to build, above kBlockLevel; else nothing is done
+    /// @param blocks  indices of the blocks in Z-order (voxel/z_order.h)
+    /// @param top     last level to build; nothing is built unless it is above kBlockLevel
     UpperLevels(std::span<const Vec3i> blocks, int top, const LevelOptions& options, Store store);
 
-    /// Takes a block's voxel of level kBlockLevel; null where the block is empty.
+    /// Takes a block's voxel of level kBlockLevel; null if the block is empty.
     void take(std::size_t rank, std::unique_ptr<UpperVoxel> voxel);
-    /// Voxels of a level that may be there.
+    /// Returns the number of voxels of a level that may exist.
     [[nodiscard]] std::size_t count(int level) const;
-    /// Indices of those, and their columns where options.fields.correlation keeps them.
+    /// These return the indices of those voxels, and their columns if options.fields.correlation.
     [[nodiscard]] std::vector<Vec3i> index_of(int level) const;
     [[nodiscard]] std::vector<std::array<UpperVoxel::Runs, 3>> take_columns(int level);
 
 private:
     struct Node {
         Vec3i index;
-        std::uint32_t parent = 0; ///< number in the next level
+        std::uint32_t parent = 0; ///< its number in the next level
         std::atomic<int> waits{0};
         std::array<std::unique_ptr<UpperVoxel>, 8> child;
         std::array<UpperVoxel::Runs, 3> kept;
@@ -67,7 +66,7 @@ private:
     std::vector<NodeLevel> levels_; ///< from kBlockLevel + 1 on
 };
 
-/// Takes the one voxel of a block's level kBlockLevel out of it; null where there is none.
+/// Returns the one voxel of a block's level kBlockLevel; null if there is none.
 [[nodiscard]] std::unique_ptr<UpperVoxel> take_upper(const OpenLevel& level);
 
 } // namespace heddle

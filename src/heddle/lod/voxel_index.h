@@ -8,8 +8,8 @@
 
 namespace heddle {
 
-/// A source's leaves in Z-order: all voxels below one of a coarser level lie in one run, which a
-/// table of leaves by index could only collect leaf by leaf.
+/// A level's leaves in Z-order, so that all voxels below a coarser voxel are consecutive. A
+/// LeafTable would need a lookup for each leaf.
 class VoxelIndex {
 public:
     /// @param source  must outlive this
@@ -17,15 +17,15 @@ public:
 
     [[nodiscard]] const VoxelLevel& source() const { return source_; }
 
-    /// Calls visit(BlockVoxel) for all voxels of the source that lie in one `levels` levels above
-    /// it, in a fixed order. Safe from several threads.
+    /// Calls visit(BlockVoxel) for all voxels of the source inside a voxel that is `levels` levels
+    /// above it, in a fixed order. Thread-safe.
     /// @param levels  0: the voxel itself
-    /// @param index   of the coarser one
+    /// @param index   index of the coarser voxel
     template <typename Visit>
     void for_each_below(int levels, Vec3i index, const Visit& visit) const {
         VoxelBlock scratch;
-        const int up = levels > 3 ? levels - 3 : 0;    // levels above a leaf's own
-        const int below = levels < 3 ? 3 - levels : 0; // and below it
+        const int up = levels > 3 ? levels - 3 : 0;    // levels above that of a leaf's size
+        const int below = levels < 3 ? 3 - levels : 0; // levels below it
         const Vec3i cell{index.x >> below, index.y >> below, index.z >> below};
         const VoxelBlock* block = nullptr;
         for (std::size_t i = first_in({cell.x << up, cell.y << up, cell.z << up});
@@ -45,7 +45,7 @@ private:
         std::uint32_t block = 0;
         std::uint32_t leaf = 0;
     };
-    /// The first leaf that does not come before a cell.
+    /// Returns the first leaf that is not before `cell` in Z-order.
     [[nodiscard]] std::size_t first_in(Vec3i cell) const;
     [[nodiscard]] static bool is_in(Vec3i leaf, Vec3i cell, int up) {
         return Vec3i{leaf.x >> up, leaf.y >> up, leaf.z >> up} == cell;

@@ -4,7 +4,7 @@
 
 namespace heddle::raster {
 
-/// GLSL: `accumulate`: every column's centre ray through the fibers themselves.
+/// GLSL for `accumulate`: traces the centre ray of every column through the fibers themselves.
 inline constexpr std::string_view kAccumulateGlsl = R"(
 // Columns of axis 0 have bit z n + y, of 1 z n + x, of 2 y n + x.
 uint column_bit(ivec3 sub) {

@@ -4,8 +4,8 @@
 
 namespace heddle::raster {
 
-/// GLSL: the lattice, and which bricks of 8 x 8 x 8 voxels the slab between two slices may
-/// touch. Voxels and bricks are counted from the origin. Needs kSpanGlsl.
+/// GLSL: the lattice, and the bricks of 8 x 8 x 8 voxels that the slab between two slices may
+/// touch. Indices are relative to the origin. Needs kSpanGlsl.
 inline constexpr std::string_view kBrickGlsl = R"(
 uniform ivec3 voxel_lo;    // [lo, hi)
 uniform ivec3 voxel_hi;
@@ -40,7 +40,7 @@ bool touches(BrickBox box, ivec3 brick) {
 }
 )";
 
-/// GLSL: one slice an item; sets the bit of each brick that the slab after it may touch.
+/// GLSL, one slice per item: sets the bit of each brick that the slab after it may touch.
 inline constexpr std::string_view kMarkGlsl = R"(
 layout(std430, binding = 1) buffer Marks { uint marks[]; };
 uniform uint slice_count;
@@ -60,14 +60,14 @@ void main() {
 }
 )";
 
-/// GLSL, compute: invocations that share a slab of a list. Here 8 are the fastest: a vector of
-/// the software driver. Where a slab is a few pixels, most of 32 would have none.
+/// GLSL, compute: the number of invocations that share a slab of a list. 8 are the fastest: a
+/// vector of the software driver. If a slab has few pixels, most of 32 would have none.
 inline constexpr std::string_view kSlabLanesGlsl = R"(
 const uint kSlabLanes = 8u;
 )";
 
-/// GLSL: one slice an item; lists those whose slab may touch a brick of the batch, for an
-/// indirect draw of four corners each, or groups of kSlabLanes invocations each. Needs
+/// GLSL, one slice per item: lists the slices whose slab may touch a brick of the batch, for an
+/// indirect draw of four corners each or for groups of kSlabLanes invocations each. Needs
 /// kSlabLanesGlsl.
 inline constexpr std::string_view kListGlsl = R"(
 layout(std430, binding = 1) readonly buffer Slots { uint slot_of[]; };

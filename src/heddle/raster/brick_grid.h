@@ -12,14 +12,14 @@
 
 namespace heddle::raster {
 
-/// Voxels along a brick's edge: a brick is what is found occupied, and a stored leaf.
+/// Voxels along a brick's edge. A brick has the voxels of one leaf.
 constexpr int kBrickEdge = 8;
 
 /// The bricks of a voxel range, counted from the origin of the slices.
 struct BrickGrid {
     Vec3i origin;             ///< voxel index
-    Vec3i voxel_lo, voxel_hi; ///< [lo, hi), from the origin
-    Vec3i lo, count;          ///< first brick, bricks per axis
+    Vec3i voxel_lo, voxel_hi; ///< [lo, hi), relative to the origin
+    Vec3i lo, count;          ///< first brick; number of bricks per axis
     LatticeUnits units;
 
     /// @throws Error  Unsupported: too many bricks for one table, or too many subvoxels for pixels
@@ -28,21 +28,21 @@ struct BrickGrid {
     [[nodiscard]] std::uint64_t size() const;
     [[nodiscard]] Vec3i brick(std::uint64_t number) const; ///< index, from the origin
     [[nodiscard]] std::uint64_t number(Vec3i brick) const;
-    /// Sets what kBrickGlsl reads.
+    /// Sets the uniforms of kBrickGlsl.
     void set_uniforms(const opengl::Program& program) const;
 };
 
 /// A block and its touched bricks.
 struct TouchedBlock {
-    Vec3i index;                       ///< of the lattice, as BlockVisitor has it
+    Vec3i index;                       ///< index in the lattice, as for BlockVisitor
     std::vector<std::uint32_t> bricks; ///< numbers in the grid, ascending
 };
 
-/// The program that finds blocks.
+/// Returns the program for find_blocks().
 [[nodiscard]] opengl::Program make_mark_program();
 
-/// The blocks that slices may touch, in Z-order, found by the driver.
-/// @param mark  of make_mark_program()
+/// Returns the blocks that slices may touch, in Z-order. They are found by the driver.
+/// @param mark  result of make_mark_program()
 [[nodiscard]] std::vector<TouchedBlock> find_blocks(const opengl::Context& context,
                                                     const opengl::Program& mark,
                                                     const BrickGrid& grid,

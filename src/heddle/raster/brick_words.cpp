@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t kSubWords = 6;     ///< first word of subvoxels
 constexpr std::size_t kMomentWords = 22; ///< xx yy xy xz yz
 constexpr std::size_t kWeightWord = 27;  ///< the moment's trace
-constexpr std::size_t kColorWords = 28;  ///< what the colour lacks of white
+constexpr std::size_t kColorWords = 28;  ///< white minus the colour
 
 using VoxelWords = std::span<const std::uint32_t, kVoxelWords>;
 
@@ -18,7 +18,7 @@ std::uint64_t join(std::uint32_t low, std::uint32_t high) {
     return low | static_cast<std::uint64_t>(high) << 32;
 }
 
-/// Density of 255 that the fragments came to; 0 where none was.
+/// Returns the density, 255 = 1, of a voxel's fragments; 0 if there were none.
 std::uint32_t density_of(VoxelWords words, Composition composition) {
     switch (composition) {
     case Composition::Last: return words[1];
@@ -29,7 +29,7 @@ std::uint32_t density_of(VoxelWords words, Composition composition) {
     return 0;
 }
 
-/// As much of each face, and of the subvoxels, as the density says.
+/// Covers the fraction of each face and of the subvoxels that the density gives.
 void set_density(VoxelSums& voxel, std::uint32_t density, int n) {
     const auto share = [&](int whole) {
         return std::max(1, (static_cast<int>(density) * whole + 127) / 255);
@@ -39,7 +39,7 @@ void set_density(VoxelSums& voxel, std::uint32_t density, int n) {
     const std::uint64_t layer = spread_columns(n * n, n);
     for (std::size_t w = 0; w < voxel.sub.size() && left > 0; ++w) {
         if (n != 8 && w > 0) break;
-        const int layers = n == 8 ? 1 : n; // those of a word
+        const int layers = n == 8 ? 1 : n; // layers of a word
         for (int k = 0; k < layers; ++k) {
             const int planes = n == 8 ? 8 - static_cast<int>(w) : n - k; // still to fill
             const int here = (left + planes - 1) / planes;
@@ -51,7 +51,7 @@ void set_density(VoxelSums& voxel, std::uint32_t density, int n) {
 }
 
 void add_lobe(VoxelWords words, const WordFormat& form, BlockSums& sums, VoxelSums& voxel) {
-    // three passes saw the same fibers
+    // the same fibers were summed in three passes
     const int up = 20 - form.weight_bits;
     const auto scaled = [&](std::uint32_t word) {
         const std::int64_t x = static_cast<std::int32_t>(word);
@@ -71,7 +71,7 @@ void add_lobe(VoxelWords words, const WordFormat& form, BlockSums& sums, VoxelSu
     for (std::size_t i = 0; i < 3; ++i) {
         maps.albedo[i] += 255 * (weight - scaled(words[kColorWords + i]));
     }
-    // a fiber's material has no such maps: its own numbers, unchanged
+    // fiber materials have no such maps: the factors are 1
     maps.roughness += 255 * weight;
     maps.metalness += 255 * weight;
     maps.anisotropy += 255 * weight;
@@ -96,7 +96,7 @@ void add_voxel(VoxelWords words, const WordFormat& form, Vec3i at, BlockSums& su
     add_lobe(words, form, sums, voxel);
 }
 
-/// Ranks of the columns of an 8 x 8 face in Bayer's order.
+/// Returns the ranks of the columns of an 8 x 8 face in Bayer's order.
 constexpr std::array<int, 64> make_ranks() {
     std::array<int, 64> ranks{};
     for (int i = 0; i < 64; ++i) {
@@ -116,7 +116,7 @@ constexpr std::array<int, 64> make_ranks() {
 
 std::uint64_t spread_columns(int count, int columns) {
     static constexpr std::array<int, 64> kRanks = make_ranks();
-    const int scale = 64 / (columns * columns); // Bayer's smaller patterns lie in the larger
+    const int scale = 64 / (columns * columns); // larger Bayer patterns contain the smaller
     std::uint64_t bits = 0;
     for (int b = 0; b < columns; ++b) {
         for (int a = 0; a < columns; ++a) {

@@ -13,26 +13,27 @@ namespace heddle::raster {
 constexpr std::size_t kVoxelWords = 32;
 constexpr std::size_t kBrickWords = 512 * kVoxelWords;
 
-/// What turns words into the sampling voxelizer's sums.
+/// How words are converted to the sums of the sampling voxelizer.
 struct WordFormat {
     int subvoxels = 8;
     Composition composition = Composition::Accumulate;
-    /// a directed area of 1 unit^2 weighs 2^weight_bits, in each of three passes
+    /// a directed area of 1 unit^2 has the weight 2^weight_bits in each of three passes
     int weight_bits = 0;
     std::uint32_t material = 0;
     friend bool operator==(const WordFormat&, const WordFormat&) = default;
 };
 
 /// Adds a brick's voxels to a block's sums.
-/// @param words   kBrickWords of them
-/// @param corner  of the brick, relative to the block's lo; voxels outside the block are empty
+/// @param words   kBrickWords words
+/// @param corner  corner of the brick relative to the block's lo; voxels outside the block are
+///                empty
 void add_brick(std::span<const std::uint32_t> words,
                const WordFormat& form,
                Vec3i corner,
                BlockSums& sums);
 
-/// Bits [0, columns^2) of which the first `count` in a fixed order that spreads them evenly are
-/// set: what stands for a density that knows no columns. `columns` is 1, 2, 4 or 8.
+/// Returns columns^2 bits, of which `count` are set, spread evenly in a fixed order. They represent
+/// a density without known columns. `columns` is 1, 2, 4 or 8.
 [[nodiscard]] std::uint64_t spread_columns(int count, int columns);
 
 } // namespace heddle::raster

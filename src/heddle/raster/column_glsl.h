@@ -4,8 +4,8 @@
 
 namespace heddle::raster {
 
-/// GLSL, all stages: the slab seen along `axis`, as a rectangle that holds it. Needs
-/// kStretchGlsl, in fragments kSlabGlsl.
+/// GLSL, all stages: the slab seen along `axis`, as a rectangle that contains it. Needs
+/// kStretchGlsl, in fragment shaders kSlabGlsl.
 inline constexpr std::string_view kRectangleGlsl = R"(
 uniform int axis;
 uniform ivec3 view_lo; // subvoxels
@@ -39,7 +39,7 @@ Rectangle rectangle_of_slab(float pad) {
 }
 )";
 
-/// GLSL, vertex, last: a quad that finds the slab's pixels.
+/// GLSL, vertex, comes last: a quad that covers the slab's pixels.
 inline constexpr std::string_view kQuadGlsl = R"(
 void main() {
     current_slab();
@@ -51,12 +51,12 @@ void main() {
 }
 )";
 
-/// GLSL, fragment, last: a pixel of the quad.
+/// GLSL, fragment, comes last: a pixel of the quad.
 inline constexpr std::string_view kFragmentGlsl = R"(
 void main() { draw_pixel(ivec2(floor(gl_FragCoord.xy)) + across(view_lo)); }
 )";
 
-/// GLSL, compute, last: the same pixels, row by row of the rectangle.
+/// GLSL, compute, comes last: the same pixels, row by row of the rectangle.
 inline constexpr std::string_view kSlabLoopGlsl = R"(
 layout(std430, binding = 4) buffer Draw { uint corners, listed, first, base, groups[3], most; };
 uniform int first_turn; // of kTurns; in the first, `most` becomes the most pixels of a slab

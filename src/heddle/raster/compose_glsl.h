@@ -4,7 +4,7 @@
 
 namespace heddle::raster {
 
-/// GLSL: `last`, `average`, `max`: the slice's own alpha at subvoxels, as one density a voxel.
+/// GLSL for `last`, `average` and `max`: the slice's alpha at subvoxels, as one density per voxel.
 inline constexpr std::string_view kComposeGlsl = R"(
 uniform int policy;       // 0 last, 1 average, 2 max
 uniform int pick;         // of `last`: 0 finds which fragment is the last, 1 takes its alpha

@@ -11,8 +11,8 @@ namespace heddle::raster {
 namespace {
 
 constexpr std::size_t kBrickBytes = kBrickWords * sizeof(std::uint32_t);
-constexpr std::size_t kBlockBricks = 64; ///< most that one block has
-constexpr std::size_t kTriedBlocks = 16; ///< on which paths are timed
+constexpr std::size_t kBlockBricks = 64; ///< largest number of bricks of a block
+constexpr std::size_t kTriedBlocks = 16; ///< number of blocks on which paths are timed
 
 std::vector<std::uint32_t> materials_of(std::span<const slice::SliceChunk> chunks) {
     std::vector<std::uint32_t> out;

@@ -14,14 +14,14 @@ namespace heddle::raster {
 /// One material's sums of a batch.
 struct RasterMaterial {
     WordFormat form;
-    std::vector<std::uint32_t> words; ///< kBrickWords a slot
+    std::vector<std::uint32_t> words; ///< kBrickWords per slot
     friend bool operator==(const RasterMaterial&, const RasterMaterial&) = default;
 };
 
 /// Sums of blocks [begin, end) of a list.
 struct RasterBatch {
     std::size_t begin = 0, end = 0;
-    std::vector<std::size_t> first_slot; ///< of each block's bricks
+    std::vector<std::size_t> first_slot; ///< first slot of each block's bricks
     std::size_t bricks = 0;
     std::vector<RasterMaterial> materials;
 };
@@ -29,12 +29,12 @@ struct RasterBatch {
 /// How bricks are drawn.
 struct DrawOptions {
     int weight_bits = 0;
-    std::int64_t memory_bytes = 0; ///< of a batch's sums, at most; a block's at least
-    std::int64_t bricks = 0;       ///< in all: a batch never needs more
+    std::int64_t memory_bytes = 0; ///< limit of a batch's sums; a block is always allowed
+    std::int64_t bricks = 0;       ///< total number: an upper bound for a batch
 };
 
-/// Draws slices along three axes into the sums of bricks, a batch of blocks at a time. Needs the
-/// Context, kit, grid, textures and chunks while it lives.
+/// Draws slices along three axes into the sums of bricks, a batch of blocks at a time. The
+/// arguments of its constructor, except the options, must outlive it.
 class BrickRasterizer {
 public:
     /// @throws Error  OutOfMemory; Unsupported: `Last` with more than 2^23 slices
@@ -45,8 +45,8 @@ public:
                     std::span<const slice::SliceChunk> chunks,
                     const DrawOptions& options);
 
-    /// Draws as many blocks from `begin` on as memory and the driver's largest view take, one at
-    /// least. Where no path is chosen yet, tries both on a few blocks and chooses the faster.
+    /// Draws as many blocks from `begin` on as memory and the driver's largest viewport allow, but
+    /// at least one. If no path is chosen yet, times both on a few blocks and chooses the faster.
     [[nodiscard]] RasterBatch draw(std::span<const TouchedBlock> blocks, std::size_t begin);
 
 private:

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kGroupsOffset = 4 * sizeof(std::uint32_t); ///< in kListGlsl's Draw
 constexpr std::size_t kMaxOffset = 7 * sizeof(std::uint32_t);
-/// these two: as kSlabLanesGlsl and kSlabLoopGlsl have them
+/// these two must equal those of kSlabLanesGlsl and kSlabLoopGlsl
 constexpr std::uint32_t kSlabLanes = 8;
 constexpr std::uint32_t kTurns = 64;
 
@@ -75,7 +75,7 @@ void SlabPass::draw(const opengl::Buffer& command, const RasterWindow& view) con
     }
 }
 
-/// As many dispatches as the largest slab needs, which the first finds out.
+/// Runs as many dispatches as the largest slab needs; the first one finds out how many.
 void SlabPass::walk(const opengl::Buffer& command) const {
     std::array<std::uint32_t, 1> most{};
     command.write(std::as_bytes(std::span(most)), kMaxOffset);
@@ -105,10 +105,10 @@ const SlabPass& SlabResources::pass(RasterPath path) {
 }
 
 const opengl::Buffer& SlabResources::pool(std::size_t bytes) {
-    // frames differ by some bricks, and all of it is cleared for each batch
+    // the number of bricks varies between frames, and the whole pool is cleared for each batch
     const std::size_t held = pool_ ? pool_->byte_count() : 0;
     if (held < bytes || held > 2 * bytes) {
-        pool_.reset(); // there may not be room for both
+        pool_.reset(); // there may not be enough memory for both
         pool_.emplace("sums of bricks", bytes);
     }
     return *pool_;

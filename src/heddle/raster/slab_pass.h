@@ -11,24 +11,25 @@
 
 namespace heddle::raster {
 
-/// A part of the grid, in subvoxels from the origin.
+/// A part of the grid, in subvoxels relative to the origin.
 struct RasterWindow {
     Vec3i lo, size;
 };
 
-/// Draws listed slabs along three axes into the sums of bricks: by fragments of quads, or by
-/// compute invocations that walk over the same pixels. Both run one text for a pixel. Needs a
-/// current Context.
+/// Draws listed slabs along three axes into the sums of bricks, by fragments of quads or by compute
+/// invocations that loop over the same pixels. Both run the same code for a pixel. Needs a current
+/// Context.
 class SlabPass {
 public:
     /// @param path  Fragment or Compute
     /// @throws Error  Internal: as Program
     SlabPass(RasterPath path, Composition composition);
 
-    /// To set what all draws have in common.
+    /// Returns the program, to set the uniforms that all draws share.
     [[nodiscard]] const opengl::Program& program() const { return program_; }
-    /// Slices are bound as storage 0, slots 1, the list 2, the pool 3. Waits for nothing.
-    /// @param command  as kListGlsl writes it
+    /// Draws the listed slabs without waiting. Storage buffers 0 to 3 must be bound to the slices,
+    /// the slots, the list and the pool.
+    /// @param command  written by kListGlsl
     void draw(const opengl::Buffer& command, const RasterWindow& view) const;
 
 private:
@@ -39,21 +40,21 @@ private:
     opengl::EmptyFramebuffer frame_;
 };
 
-/// What slabs are drawn with, kept from one geometry to the next: programs, each made when it is
-/// first asked for, and the memory of their sums.
+/// The resources for drawing slabs, reused from one geometry to the next: programs, each created
+/// when it is first used, and the memory of the sums.
 class SlabResources {
 public:
-    /// @param path  Auto: what is faster on a software driver; on another it is left open
+    /// @param path  Auto: the faster path on a software driver; undecided on other drivers
     SlabResources(const opengl::Context& context, RasterPath path, Composition composition);
 
     [[nodiscard]] Composition composition() const { return composition_; }
     [[nodiscard]] const opengl::Program& list() const { return list_; }
     [[nodiscard]] const SlabPass& pass(RasterPath path);
-    /// Fragment or Compute; Auto until one is chosen.
+    /// Returns Fragment or Compute; Auto until one is chosen.
     [[nodiscard]] RasterPath path() const { return path_; }
     void choose(RasterPath path) { path_ = path; }
-    /// Memory for sums, `bytes` or up to twice as many. A reference from an earlier call is no
-    /// longer good.
+    /// Returns memory for sums, of `bytes` to twice as many. References from earlier calls become
+    /// invalid.
     /// @throws Error  OutOfMemory
     [[nodiscard]] const opengl::Buffer& pool(std::size_t bytes);
 

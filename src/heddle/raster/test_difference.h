@@ -10,11 +10,12 @@
 #include <tuple>
 #include <vector>
 
-// Two voxelizations of the same slices compared, for the tests and the tables of bench/.
+// Compares two voxelizations of the same slices, for tests and the tables of bench/.
 
 namespace heddle::raster::test {
 
-/// Mean extinction of a voxel over its three axes, as `density` of a .vdb has it, per voxel edge.
+/// Returns the mean extinction of a voxel over its three axes, per voxel edge, like `density` of a
+/// .vdb.
 inline double density_of(const Coverage& coverage, int columns) {
     double sum = 0.0;
     for (int a = 0; a < 3; ++a) {
@@ -24,7 +25,7 @@ inline double density_of(const Coverage& coverage, int columns) {
     return sum;
 }
 
-/// The axis that a voxel's directions agree on best.
+/// Returns the main axis of a voxel's directions.
 inline Vec3d axis_of(const BlockVoxel& voxel) {
     double sum[6]{};
     double weight = 0.0;
@@ -36,7 +37,7 @@ inline Vec3d axis_of(const BlockVoxel& voxel) {
     return to_double(principal_direction({of(0), of(1), of(2), of(3), of(4), of(5)}));
 }
 
-/// All that is stored of a grid, voxel by voxel.
+/// All stored data of a level, voxel by voxel.
 struct Stored {
     Vec3i at;
     Coverage coverage;
@@ -61,8 +62,8 @@ struct Difference {
     double density = 0.0;   ///< ratio of the sums of density_of
     double coverage = 0.0;  ///< ratio of the sums of coverage, all axes
     double volume = 0.0;    ///< ratio of the sums of occupancy
-    double angle_deg = 0.0; ///< median of the angles between voxels' axes, where both have one
-    double far_deg = 0.0;   ///< 90 of 100 angles are below
+    double angle_deg = 0.0; ///< median angle between the axes of voxels that both have
+    double far_deg = 0.0;   ///< 90 % of the angles are smaller
 };
 
 inline Difference compare(const VoxelLevel& first, const VoxelLevel& second) {

@@ -25,7 +25,7 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// The block that holds the least control point: the same for every region of an object.
+/// Returns the block that contains the smallest control point, which is the same for every region.
 Vec3i origin_of(const Geometry& geometry, const LatticeUnits& units) {
     Vec3d least{1e300, 1e300, 1e300};
     for (const CurveSet& set : geometry.curves) {
@@ -41,7 +41,8 @@ Vec3i origin_of(const Geometry& geometry, const LatticeUnits& units) {
     return out;
 }
 
-/// Bits of a weight so that three passes over a full voxel, eight times over, stay below 2^31.
+/// Returns the bits of a weight with which three passes over eight times a full voxel stay below
+/// 2^31.
 int weight_bits(const LatticeUnits& units,
                 std::span<const slice::SliceChunk> chunks,
                 float thinnest) {
@@ -52,7 +53,7 @@ int weight_bits(const LatticeUnits& units,
     return static_cast<int>(std::clamp(std::floor(28.0 - std::log2(most)), -20.0, 20.0));
 }
 
-/// Radius of the thinnest fiber, units.
+/// Returns the radius of the thinnest fiber, in units.
 float thinnest_fiber(const Geometry& geometry,
                      const slice::SectionLayers& sections,
                      const LatticeUnits& units) {
@@ -69,8 +70,7 @@ float thinnest_fiber(const Geometry& geometry,
     return std::max(least / static_cast<float>(units.unit), 1e-6f);
 }
 
-/// Slabs look at all bricks in a box around them in one loop, of which software drivers run 65535
-/// turns.
+/// Refuses slabs whose box has too many bricks: software drivers end a loop after 65535 iterations.
 void check_thickness(const slice::SectionLayers& sections,
                      const Geometry& geometry,
                      const LatticeUnits& units) {
@@ -97,7 +97,7 @@ void check_geometry(const Geometry& geometry) {
                 "use --backend sample");
 }
 
-/// Sums to voxels, block by block.
+/// Converts sums to voxels, block by block.
 struct BlockFitter {
     const VoxelizeContext& context;
     const BrickGrid& grid;
@@ -146,7 +146,7 @@ RasterCounts count(std::span<const slice::SliceChunk> chunks,
     return out;
 }
 
-/// Draws and fits all blocks, a batch after the other.
+/// Draws and fits all blocks, batch by batch.
 void draw_all(BrickRasterizer& rasterizer,
               BlockFitter& fitter,
               Progress& progress,
@@ -194,15 +194,15 @@ struct SliceVoxelizer::Kept {
 
 SliceVoxelizer::Kept& SliceVoxelizer::open() {
     if (!kept_) kept_ = std::make_unique<Kept>(raster_);
-    kept_->driver.make_current(); // others may have been opened since
+    kept_->driver.make_current(); // another context may be current
     return *kept_;
 }
 
 std::int64_t SliceVoxelizer::predict_bytes(const Geometry& geometry,
                                            const VoxelizeOptions& options,
                                            const VoxelizePlan& plan) {
-    constexpr std::int64_t kDriver = std::int64_t{90} << 20; // llvmpipe with its programs, measured
-    constexpr double kTouched = 1.6; // bricks that slabs touch a leaf that has voxels, measured
+    constexpr std::int64_t kDriver = std::int64_t{90} << 20; // measured: llvmpipe with its programs
+    constexpr double kTouched = 1.6; // measured: touched bricks per leaf with voxels
     const opengl::Context& driver = open().driver;
     const auto brick = static_cast<std::int64_t>(kBrickWords * sizeof(std::uint32_t));
     const auto touched =

@@ -184,7 +184,7 @@ TEST(Composition, DensitiesStandInTheOrderOfTheirPolicies) {
     const double last = mean(Composition::Last);
     const double average = mean(Composition::Average);
     EXPECT_GT(mean(Composition::Max), 0.95);
-    EXPECT_LT(average, 0.42); // .4 inside, less where clear corners count
+    EXPECT_LT(average, 0.42); // 0.4 inside, less at transparent corners
     EXPECT_GT(average, 0.3);
     EXPECT_GT(last, 0.3); // any one of them
     EXPECT_LT(last, 0.5);

@@ -7,9 +7,9 @@
 
 namespace heddle {
 
-/// Area-weighted vertex normals, joined over vertices with the same position: what a mesh without
-/// normals is displaced along.
-/// @return  one unit vector per vertex; +z for a vertex without a triangle that has an area
+/// Returns area-weighted vertex normals, shared by all vertices with the same position. A mesh
+/// without normals is displaced along them.
+/// @return  one unit vector per vertex; +z if all its triangles have no area
 [[nodiscard]] std::vector<Vec3f> average_normals(const Mesh& mesh);
 
 } // namespace heddle

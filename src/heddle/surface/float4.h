@@ -7,14 +7,14 @@
 
 namespace heddle {
 
-/// Four channels of a texel, 16 bits each: colour x weight, and the weight in [3]; 65535 = 1.
+/// Four channels of a texel with 16 bits each: colour x weight, and the weight in [3]; 65535 = 1.
 struct alignas(8) Texel {
     std::uint16_t c[4];
 };
 static_assert(sizeof(Texel) == 8, "the same on host and device");
 
-// Four floats that are added and scaled each by itself. The host's compiler has vectors for that;
-// for the device, which has none, they are written out. Both round each number once: the same bits.
+// Four floats with component-wise operations: compiler vectors on the host, plain code on the
+// device. Both round each operation once, so that the bits are the same.
 #if defined(__CUDACC__)
 struct Float4 {
     float v[4];

@@ -9,8 +9,8 @@
 #include <cstddef>
 #include <cstdint>
 
-// What a triangle with a material's maps is at one point: one body for the voxelizer's hits and for
-// the points that rays hit. float + - * / sqrt only: the same everywhere.
+// The normal, tangent and coverage of a triangle with maps at one point, for the hits of the
+// voxelizer and of rays. Only float + - * / sqrt are used: the bits are the same everywhere.
 
 namespace heddle {
 
@@ -18,7 +18,8 @@ namespace heddle {
 template <typename T>
 using Corners = std::array<T, 3>;
 
-/// @param b0, b1, b2  barycentric, their sum is 1
+/// Interpolates over a triangle.
+/// @param b0, b1, b2  barycentric coordinates with a sum of 1
 [[nodiscard]] HEDDLE_HD inline Vec3f
 interpolate(const Corners<Vec3f>& v, float b0, float b1, float b2) {
     return v[0] * b0 + v[1] * b1 + v[2] * b2;
@@ -27,7 +28,7 @@ interpolate(const Corners<Vec3f>& v, float b0, float b1, float b2) {
     return {v[0].u * b0 + v[1].u * b1 + v[2].u * b2, v[0].v * b0 + v[1].v * b1 + v[2].v * b2};
 }
 
-/// Twice a triangle's area times its normal, which shows to the counter-clockwise side.
+/// Returns twice a triangle's area times its normal, which points to the counter-clockwise side.
 [[nodiscard]] HEDDLE_HD inline Vec3d doubled_area(const MeshView& mesh, std::uint64_t triangle) {
     const Corners<std::uint32_t> corner = mesh.triangles[triangle];
     const Vec3d p = to_double(mesh.positions[corner[0]]);
@@ -35,9 +36,9 @@ interpolate(const Corners<Vec3f>& v, float b0, float b1, float b2) {
                  to_double(mesh.positions[corner[2]]) - p);
 }
 
-/// The covered fraction that a material's alpha tells.
-/// @param mapped  the material's albedo map is read
-/// @param alpha   of that map; of a mask the covered fraction; 1 without a map
+/// Returns the covered fraction according to a material's alpha.
+/// @param mapped  true: the material's albedo map is read
+/// @param alpha   alpha of that map; for a mask the covered fraction; 1 without a map
 [[nodiscard]] HEDDLE_HD inline float coverage_of(const SurfaceMaps& m, bool mapped, float alpha) {
     if (m.alpha_mode == AlphaMode::Opaque) return 1.0f;
     if (m.alpha_mode == AlphaMode::Blend) return alpha * m.alpha;
@@ -45,13 +46,13 @@ interpolate(const Corners<Vec3f>& v, float b0, float b1, float b2) {
     return m.alpha >= m.alpha_cutoff ? 1.0f : 0.0f;
 }
 
-/// A direction along the surface with the sign of the bitangent.
+/// A direction along the surface, with the sign of the bitangent.
 struct SurfaceDirection {
     Vec3f direction;
     float handedness = 1.0f; ///< bitangent = handedness x cross(normal, tangent)
 };
 
-/// The direction in which u grows on a triangle; any one where uv is constant.
+/// Returns the direction in which u grows on a triangle; any direction if uv is constant.
 [[nodiscard]] HEDDLE_HD inline SurfaceDirection direction_of_u(const MeshView& mesh,
                                                                std::uint64_t triangle,
                                                                const Corners<Uv>& uv,
@@ -65,13 +66,14 @@ struct SurfaceDirection {
     return {normalize((d1 * v2 - d2 * v1) * sign, any_perpendicular(face_normal)), sign};
 }
 
-/// The vertex tangents of a triangle, whose bitangents have the sign of its first corner's.
+/// The vertex tangents of a triangle, with the bitangent sign of its first corner.
 struct CornerTangents {
     Corners<Vec3f> direction;
     float handedness = 1.0f;
 };
 
-/// @param mesh  one that has tangents
+/// Returns the vertex tangents of a triangle.
+/// @param mesh  a mesh with tangents
 [[nodiscard]] HEDDLE_HD inline CornerTangents corner_tangents(const MeshView& mesh,
                                                               std::uint64_t triangle) {
     const Corners<std::uint32_t> corner = mesh.triangles[triangle];
@@ -84,19 +86,19 @@ struct CornerTangents {
     return out;
 }
 
-/// The axes that normal maps and anisotropy directions count in; unit.
+/// The unit axes that normal maps and anisotropy directions refer to.
 struct SurfaceFrame {
     Vec3f normal, tangent, bitangent;
 };
 
-/// @param normal  unit
+/// Returns the frame of a unit normal and a direction along the surface.
 [[nodiscard]] HEDDLE_HD inline SurfaceFrame frame_of(Vec3f normal, const SurfaceDirection& along) {
     const Vec3f flat = along.direction - normal * dot(normal, along.direction);
     const Vec3f tangent = normalize(flat, any_perpendicular(normal));
     return {normal, tangent, cross(normal, tangent) * along.handedness};
 }
 
-/// The normal that a normal map's value says; unit.
+/// Returns the unit normal for a value of a normal map.
 [[nodiscard]] HEDDLE_HD inline Vec3f
 normal_from_map(const SurfaceFrame& f, const SurfaceMaps& maps, Rgba value) {
     const float scale = maps.normal_scale;
@@ -106,14 +108,15 @@ normal_from_map(const SurfaceFrame& f, const SurfaceMaps& maps, Rgba value) {
                      f.normal);
 }
 
-/// The direction of anisotropy: (x, y) in the frame, turned by the material's rotation. Not unit.
+/// Returns the direction of anisotropy: (x, y) in the frame, turned by the material's rotation. It
+/// is not normalized.
 [[nodiscard]] HEDDLE_HD inline Vec3f
 turned_direction(const SurfaceFrame& f, const SurfaceMaps& maps, float x, float y) {
     return f.tangent * (x * maps.rotation_cos - y * maps.rotation_sin) +
            f.bitangent * (x * maps.rotation_sin + y * maps.rotation_cos);
 }
 
-/// (x, y) of an anisotropy map's value.
+/// The direction (x, y) of a value of an anisotropy map.
 struct FrameDirection {
     float x = 1.0f, y = 0.0f;
 };

@@ -8,7 +8,7 @@ namespace heddle {
 
 namespace {
 
-// The alpha of the texture at which the product with the material's alpha reaches the cut-off.
+// Returns the texture alpha whose product with the material's alpha is the cut-off.
 float mask_threshold(const Material& m) {
     if (m.alpha_cutoff <= 0.0f) return 0.0f;
     return m.alpha > 0.0f ? m.alpha_cutoff / m.alpha : 2.0f;

@@ -18,15 +18,15 @@ enum class MapReading : std::uint8_t {
 };
 
 /// The materials of a geometry with their maps ready to be read. Materials that read a texture in
-/// the same way share it. Never changes: any number of threads.
+/// the same way share it. It is immutable and thus thread-safe.
 class GeometryMaps {
 public:
     /// @param geometry  must outlive this, unchanged
-    /// @throws Error    InvalidArgument: a texture with less bytes than its size says, or an index
-    ///                  (material, texture) that is out of range
+    /// @throws Error    InvalidArgument: a texture with fewer bytes than its size requires, or an
+    ///                  index (material, texture) that is out of range
     GeometryMaps(const Geometry& geometry, MapReading reading);
 
-    /// By the material's number. Valid while this lives.
+    /// Returns the maps by material number. Valid while this lives.
     [[nodiscard]] const std::vector<SurfaceMaps>& materials() const { return materials_; }
     [[nodiscard]] const SurfaceMaps& of(const Mesh& mesh) const {
         return materials_[mesh.material];
@@ -35,7 +35,7 @@ public:
     [[nodiscard]] const FilteredTexture& texture(std::size_t i) const {
         return *stored_[i].filtered;
     }
-    /// Memory that the averaged levels of the textures take, in bytes.
+    /// Returns the memory of the averaged levels of the textures, in bytes.
     [[nodiscard]] std::int64_t bytes() const;
 
 private:
@@ -55,12 +55,12 @@ private:
     std::vector<SurfaceMaps> materials_;
 };
 
-/// Whether the material moves its surface along a height map, if it has one.
+/// Returns true if the material displaces its surface by a height map, provided that it has one.
 [[nodiscard]] inline bool moves_surface(const Material& m) {
     return m.height_scale != 0.0f || m.height_offset != 0.0f;
 }
 
-/// A mesh as pointers, with no height map: of kind Constant.
+/// Returns a mesh as pointers, of kind Constant and without a height map.
 [[nodiscard]] MeshView mesh_view(const Mesh& mesh);
 
 } // namespace heddle

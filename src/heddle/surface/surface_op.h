@@ -14,12 +14,13 @@ namespace heddle {
 // Directions and map values of surface hits.
 //
 // Colour, roughness, metalness and strength are means over the footprint of a hit (trilinear, in
-// linear light; colour weighted by alpha). Directions are not: a mean normal has lost the spread
-// that the voxel's second moment is there to keep. So where the footprint exceeds a texel, normal
+// linear light; colour is weighted by alpha). Directions are not averaged: a mean normal would lose
+// the spread that the voxel's second moment must have. So if the footprint exceeds a texel, normal
 // maps and anisotropy directions are read at a random point of it, at the finest level.
-// Alpha: the covered fraction c of the footprint (of a mask, exactly 0 or 1 below a texel) covers
-// the column if c exceeds a hash of the hit's position: right in the mean at any footprint.
-// Random numbers are hashes of (seed, i, j, k, axis). float + - * / sqrt only: the same everywhere.
+// Alpha: the column is covered if the covered fraction of the footprint (for a mask, exactly 0 or 1
+// below a texel) exceeds a hash of the hit's position. The mean is right for any footprint.
+// Random numbers are hashes of (seed, i, j, k, axis). Only float + - * / sqrt are used: the bits
+// are the same everywhere.
 
 /// A hit of `scan_triangle`, to be shaded.
 struct SurfaceHit {
@@ -28,31 +29,31 @@ struct SurfaceHit {
     float b0 = 1.0f, b1 = 0.0f, b2 = 0.0f;
 };
 
-/// What a surface is at one hit. The maps' values are multipliers: 1 where there is no map.
+/// The surface at one hit. The values of maps are multipliers, 1 without a map.
 struct SurfaceSample {
-    bool covered = true;   ///< false: cut away by alpha, nothing else is set
-    Vec3f normal{};        ///< unit, world axes; axial, either side
-    Vec3f tangent{};       ///< unit, at right angles to `normal`; (0, 0, 0) where isotropic
+    bool covered = true;   ///< false: cut away by alpha, and nothing else is set
+    Vec3f normal{};        ///< unit, world axes; its sign has no meaning
+    Vec3f tangent{};       ///< unit, perpendicular to `normal`; (0, 0, 0) if isotropic
     Vec3f albedo{1, 1, 1}; ///< linear, in [0, 1]
     float roughness = 1.0f;
     float metalness = 1.0f;
     float anisotropy = 1.0f;
 };
 
-/// What the hits of one triangle share.
+/// The constants of the hits of one triangle.
 struct TriangleSetup {
     const SurfaceMaps* maps = nullptr;
     Vec3f face_normal{};   ///< unit, counter-clockwise side
-    Vec3d normal{};        ///< the same, as `hit_weight` takes it
+    Vec3d normal{};        ///< the same in double, for hit_weight()
     bool smooth = false;   ///< vertex normals vary
-    bool textured = false; ///< `uv` holds
-    /// neighbouring hits of a row that one sample, at their middle, stands for
+    bool textured = false; ///< `uv` is valid
+    /// number of neighbouring hits of a row that share one sample at their middle
     std::int32_t run = 1;
     Corners<Vec3f> normals{};
     Corners<Vec3f> tangents{};
     float handedness = 1.0f; ///< bitangent = handedness x cross(normal, tangent)
     Corners<Uv> uv{};
-    float footprint_uv = 0.0f; ///< square root of the uv area that a sample stands for
+    float footprint_uv = 0.0f; ///< square root of the uv area of a sample
     float albedo_level = 0.0f;
     float metal_rough_level = 0.0f;
     float anisotropy_level = 0.0f;
@@ -66,8 +67,8 @@ HEDDLE_HD inline double uv_area(Uv a, Uv b, Uv c) {
     return 0.5 * std::abs(u1 * v2 - u2 * v1);
 }
 
-// Mean area of the surface that a hit stands for: the columns' sections seen from the surface,
-// weighted as the axes share out the area.
+// Returns the mean area of the surface per hit: the columns' sections projected onto the surface,
+// weighted by the share of the area that each axis has.
 HEDDLE_HD inline double hit_area(Vec3d n, Vec3d s) {
     return n.x * n.x * s.y * s.z + n.y * n.y * s.z * s.x + n.z * n.z * s.x * s.y;
 }
@@ -116,7 +117,7 @@ HEDDLE_HD inline bool covers(std::uint64_t seed, const SurfaceHit& hit, float al
 
 HEDDLE_HD inline Uv point_in_footprint(
     std::uint64_t seed, const TriangleSetup& t, const SurfaceHit& hit, Uv uv, float texels_per_uv) {
-    // The bilinear read spans a texel itself: only the rest of the footprint is drawn from.
+    // The bilinear filter already spans a texel: the point is random in the rest of the footprint.
     const float spread = t.footprint_uv - 1.0f / texels_per_uv;
     if (!(spread > 0.0f)) return uv;
     const std::uint64_t h = hash_of(hit, seed, 1);
@@ -124,8 +125,7 @@ HEDDLE_HD inline Uv point_in_footprint(
             uv.v + spread * (to_unit_float(h << 24) - 0.5f)};
 }
 
-/// Sets the normal, by the normal map if it is to be read, and the tangent of anisotropic
-/// materials.
+/// Sets the normal, by the normal map if `mapped_normal`, and the tangent of anisotropic materials.
 HEDDLE_HD inline void set_frame(std::uint64_t seed,
                                 const TriangleSetup& t,
                                 const SurfaceHit& hit,
@@ -179,7 +179,8 @@ HEDDLE_HD inline SurfaceSample shade(std::uint64_t seed,
 
 } // namespace surface_detail
 
-/// @param triangle  of the mesh
+/// Returns the constants of the hits of a triangle.
+/// @param triangle  number in the mesh
 [[nodiscard]] HEDDLE_HD inline TriangleSetup
 set_up_triangle(const SurfaceView& view, const MeshView& mesh, std::uint64_t triangle) {
     const Corners<std::uint32_t> corner = mesh.triangles[triangle];
@@ -204,7 +205,7 @@ set_up_triangle(const SurfaceView& view, const MeshView& mesh, std::uint64_t tri
     return t;
 }
 
-/// What the surface is at a hit.
+/// Returns the surface at a hit.
 /// @param seed  SurfaceView::seed
 [[nodiscard]] HEDDLE_HD inline SurfaceSample
 sample_at(std::uint64_t seed, const TriangleSetup& t, const SurfaceHit& hit) {
@@ -215,8 +216,8 @@ sample_at(std::uint64_t seed, const TriangleSetup& t, const SurfaceHit& hit) {
     return shade(seed, t, hit, normal, true);
 }
 
-/// The same on a displaced triangle: `micro_normal` (unit) takes the place of the interpolated
-/// normal, and of the normal map, which holds the same relief.
+/// Returns the surface at a hit of a displaced triangle. `micro_normal` (unit) replaces the
+/// interpolated normal and the normal map, which contains the same relief.
 [[nodiscard]] HEDDLE_HD inline SurfaceSample
 sample_at(std::uint64_t seed, const TriangleSetup& t, const SurfaceHit& hit, Vec3f micro_normal) {
     return surface_detail::shade(seed, t, hit, micro_normal, false);

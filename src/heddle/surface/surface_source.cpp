@@ -10,11 +10,11 @@ namespace heddle {
 
 namespace {
 
-/// Neighbouring hits in a voxel that share a sample of the maps: a quarter of the cost of reading
-/// them at each, and still 16 samples a voxel and axis.
+/// Neighbouring hits in a voxel that share a sample of the maps: a quarter of the cost of a sample
+/// per hit, with still 16 samples per voxel and axis.
 constexpr int kMaxRun = 4;
 
-// Level of the height map at the mean footprint of the mesh's hits.
+// Returns the level of the height map for the mean footprint of the mesh's hits.
 float height_level(const Mesh& mesh, const TextureView& map, Vec3d subvoxel_size) {
     double world = 0.0, in_uv = 0.0;
     for (const auto& [a, b, c] : mesh.triangles) {

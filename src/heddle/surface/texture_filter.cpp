@@ -11,8 +11,8 @@ namespace heddle {
 
 namespace {
 
-// 16-bit linear value of a colour byte. Rounded to integers, so that the last bit of pow, which
-// differs between C libraries, does not show.
+// Returns the 16-bit linear value of a colour byte. It is rounded to integers, so that the last bit
+// of pow, which differs between C libraries, has no effect.
 std::uint16_t linear_from_byte(int byte, bool srgb) {
     if (!srgb) return static_cast<std::uint16_t>(byte * 257);
     const double linear = linear_from_srgb_byte<double>(static_cast<std::uint8_t>(byte));
@@ -29,8 +29,8 @@ void check_texture(const Texture& t) {
                     "give width x height x channels bytes, 1 to 4 channels");
 }
 
-// How many of the centres of a finest texel's quarters are covered, the alpha being bilinear: there
-// the four nearest texels weigh 9/16, 3/16, 3/16 and 1/16.
+// Returns how many of the centres of a finest texel's quarters are covered by bilinear alpha. There
+// the four nearest texels have weights 9/16, 3/16, 3/16 and 1/16.
 std::uint32_t quarters_covered(const TextureView& t, std::int32_t x, std::int32_t y) {
     using texture_detail::wrapped_texel;
     std::uint32_t alpha[3][3], least = 65535, most = 0;
@@ -54,7 +54,7 @@ std::uint32_t quarters_covered(const TextureView& t, std::int32_t x, std::int32_
     return n;
 }
 
-// A texel as the averages of the next level count it.
+// Returns a texel as it is averaged for the next level.
 Texel source_texel(const TextureView& t, const TextureLevel& from, std::int32_t x, std::int32_t y) {
     using texture_detail::times;
     if (from.texels != nullptr) return from.texels[texture_detail::texel_index(from, x, y)];
@@ -65,8 +65,8 @@ Texel source_texel(const TextureView& t, const TextureLevel& from, std::int32_t 
              static_cast<std::uint16_t>(w)}};
 }
 
-// Mean over the source texels that texel (x, y) spans, by the exact overlap: odd sizes keep the
-// mean.
+// Returns the mean over the source texels that texel (x, y) overlaps, weighted by the overlap, so
+// that odd sizes have the right mean.
 Texel box_average(const TextureView& t,
                   const TextureLevel& from,
                   const TextureLevel& to,

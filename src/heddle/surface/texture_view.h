@@ -13,9 +13,9 @@
 
 namespace heddle {
 
-/// What a texel counts for when texels are averaged.
+/// The weight of a texel when texels are averaged.
 enum class TexelWeight : std::uint8_t {
-    One,   ///< alpha is ignored and reads 1
+    One,   ///< alpha is ignored and read as 1
     Alpha, ///< colour is weighted by alpha, alpha is averaged
     Mask   ///< colour is weighted by the covered fraction, alpha becomes that fraction
 };
@@ -27,37 +27,38 @@ struct Rgba {
 
 /// One level of a FilteredTexture.
 struct TextureLevel {
-    const Texel* texels = nullptr; ///< width x height; null at level 0, which is the image itself
+    const Texel* texels = nullptr; ///< width x height; null for level 0, which is the image itself
     std::int32_t width = 0;
     std::int32_t height = 0;
 };
 
 /// A FilteredTexture as pointers and numbers, for host and device.
 struct TextureView {
-    const std::uint8_t* texels = nullptr;  ///< of the image
-    const std::uint16_t* decode = nullptr; ///< 256: colour byte to linear, 65535 = 1
-    const TextureLevel* levels = nullptr;  ///< the image's size, then averages
+    const std::uint8_t* texels = nullptr;  ///< texels of the image
+    const std::uint16_t* decode = nullptr; ///< 256 entries: colour byte to linear, 65535 = 1
+    const TextureLevel* levels = nullptr;  ///< [0]: size of the image; then its averages
     std::int32_t level_count = 0;
     std::int32_t channels = 0, green = 0, blue = 0, alpha = 0; ///< offsets within a texel
-    std::int32_t opaque = 0;                                   ///< 65535 where alpha is missing
-    std::uint32_t threshold = 0; ///< of alpha, for masks; 65536 and more: no alpha reaches it
+    std::int32_t opaque = 0;                                   ///< 65535 if there is no alpha
+    std::uint32_t threshold = 0; ///< alpha of a mask's border; 65536 or more: nothing is covered
     float texels_per_uv = 0.0f;  ///< geometric mean of width and height
     TexelWeight weight = TexelWeight::One;
     Wrap wrap_u = Wrap::Repeat, wrap_v = Wrap::Repeat;
 
-    /// Bilinear, at the finest level: the texture as it is. Grey textures give r = g = b.
+    /// Reads the finest level with a bilinear filter. Grey textures give r = g = b.
     [[nodiscard]] HEDDLE_HD Rgba at_point(Uv uv) const;
-    /// Alpha at a point; with TexelWeight::Mask 1 where it reaches the threshold, else 0.
+    /// Returns alpha at a point; with TexelWeight::Mask, 1 if it reaches the threshold, else 0.
     [[nodiscard]] HEDDLE_HD float coverage_at_point(Uv uv) const;
-    /// Trilinear. @param level  from `level_of`, clamped to what there is
+    /// Reads with a trilinear filter. @param level  from level_of(); clamped to the existing levels
     [[nodiscard]] HEDDLE_HD Rgba filtered(Uv uv, float level) const;
-    /// Level whose texels are as large as `footprint`, a length in uv (the square root of an area):
-    /// log2 of the footprint in texels, by a straight line between powers of two (within 0.09).
+    /// Returns the level whose texels are as large as the footprint, a length in uv (the square
+    /// root of an area): log2 of the footprint in texels, linear between powers of two (within
+    /// 0.09).
     [[nodiscard]] HEDDLE_HD float level_of(float footprint_uv) const;
 
-    /// A texel of the image. With the next one what averages are made of.
+    /// Returns a texel of the image. Averages are computed from raw() and weighted().
     [[nodiscard]] HEDDLE_HD Texel raw(std::int32_t x, std::int32_t y) const;
-    /// The same as a point lookup counts it.
+    /// Returns a texel of the image, multiplied by its weight.
     [[nodiscard]] HEDDLE_HD Texel weighted(std::int32_t x, std::int32_t y) const;
 };
 static_assert(sizeof(TextureView) == 64, "the same on host and device");
@@ -66,14 +67,13 @@ namespace texture_detail {
 
 constexpr float kOne = 65535.0f;
 
-// std::floor for |x| < 2^31; a call into libm where the machine's baseline has no instruction for
-// it.
+// Returns std::floor(x) for |x| < 2^31, without a call of libm on machines without an instruction.
 HEDDLE_INLINE float floor_of(float x) {
     const auto i = static_cast<float>(static_cast<std::int32_t>(x));
     return i > x ? i - 1.0f : i;
 }
 
-// `u` brought into [0, 1]. Beyond 2^20 no fraction worth reading is left; NaN goes the same way.
+// Returns `u` wrapped into [0, 1]; 0 for NaN and beyond 2^20, where no useful fraction is left.
 HEDDLE_INLINE float wrapped(float u, Wrap wrap) {
     if (!(std::abs(u) < 0x1p20f)) return 0.0f;
     switch (wrap) {
@@ -87,13 +87,13 @@ HEDDLE_INLINE float wrapped(float u, Wrap wrap) {
     return u;
 }
 
-// Texel -1 or n, seen across the border; a mirrored border repeats its texel.
+// Returns the texel for i = -1 .. n. A mirrored border repeats its texel.
 HEDDLE_INLINE std::int32_t wrapped_texel(std::int32_t i, std::int32_t n, Wrap wrap) {
     if (wrap == Wrap::Repeat) return i < 0 ? i + n : i >= n ? i - n : i;
     return std::clamp(i, 0, n - 1);
 }
 
-// The texels on both sides of texel coordinate `x`, and how far it is to the second.
+// Sets the texels on both sides of `u`, and the interpolation weight of the second.
 HEDDLE_INLINE void
 neighbours(float u, std::int32_t n, Wrap wrap, std::int32_t& i0, std::int32_t& i1, float& f) {
     const float x = wrapped(u, wrap) * static_cast<float>(n) - 0.5f;
@@ -127,7 +127,7 @@ bilinear(const TextureView& t, const TextureLevel& l, Uv uv, const Fetch& fetch)
     return sum;
 }
 
-// The bilinear mean of raw texels: what raw() gives, without its way through memory.
+// Returns the bilinear mean of the texels of raw(), without storing them in memory.
 template <bool Opaque>
 HEDDLE_INLINE Float4 raw_at(const TextureView& t, Uv uv) {
     const TextureLevel l = t.levels[0];
@@ -179,7 +179,7 @@ HEDDLE_HD inline float TextureView::coverage_at_point(Uv uv) const {
     if (weight == TexelWeight::One) return 1.0f;
     const float a = at_point(uv).a;
     if (weight == TexelWeight::Alpha) return a;
-    // rounding is less than the hundredth
+    // rounding is less than 0.01
     return a >= (static_cast<float>(threshold) - 0.01f) / texture_detail::kOne ? 1.0f : 0.0f;
 }
 
@@ -197,7 +197,7 @@ HEDDLE_HD inline Rgba TextureView::filtered(Uv uv, float level) const {
         s = s + f * (t - s);
     }
     if (weight == TexelWeight::One) return {s[0], s[1], s[2], 1.0f};
-    if (s[3] <= 0.0f) return {1.0f, 1.0f, 1.0f, cover}; // nothing there to have a colour
+    if (s[3] <= 0.0f) return {1.0f, 1.0f, 1.0f, cover}; // nothing has a colour here
     const float k = 1.0f / s[3];
     return {std::min(1.0f, s[0] * k), std::min(1.0f, s[1] * k), std::min(1.0f, s[2] * k), cover};
 }
@@ -205,7 +205,7 @@ HEDDLE_HD inline Rgba TextureView::filtered(Uv uv, float level) const {
 HEDDLE_HD inline float TextureView::level_of(float footprint_uv) const {
     const float n = footprint_uv * texels_per_uv;
     if (!(n > 1.0f)) return 0.0f;
-    const auto bits = std::bit_cast<std::uint32_t>(n); // exponent and mantissa are log2's line
+    const auto bits = std::bit_cast<std::uint32_t>(n); // its fields are a linear log2
     return static_cast<float>(bits - 0x3f800000u) * 0x1p-23f;
 }
 

@@ -14,7 +14,7 @@ namespace heddle {
 /// The blocks that cover a voxel range: aligned to multiples of kBlockVoxels, numbered x-major.
 struct BlockRange {
     Vec3i voxel_lo, voxel_hi; ///< [lo, hi)
-    Vec3i lo, size;           ///< first block's index, blocks per axis
+    Vec3i lo, size;           ///< index of the first block; number of blocks per axis
 
     BlockRange() = default;
     BlockRange(Vec3i begin, Vec3i end) : voxel_lo(begin), voxel_hi(end) {
@@ -34,7 +34,7 @@ struct BlockRange {
                           static_cast<std::int32_t>(block / nz % ny),
                           static_cast<std::int32_t>(block % nz)};
     }
-    /// Number of the block with an index.
+    /// Returns the number of the block with index `at`.
     [[nodiscard]] HEDDLE_HD std::uint64_t number(Vec3i at) const {
         const Vec3i d = at - lo;
         return (static_cast<std::uint64_t>(d.x) * static_cast<std::uint64_t>(size.y) +
@@ -42,7 +42,7 @@ struct BlockRange {
                    static_cast<std::uint64_t>(size.z) +
                static_cast<std::uint64_t>(d.z);
     }
-    /// Voxel range of a block, cut to the whole's.
+    /// Sets [begin, end) to the voxel range of a block, clipped to [voxel_lo, voxel_hi).
     HEDDLE_HD void voxels(std::uint64_t block, Vec3i& begin, Vec3i& end) const {
         const Vec3i at = index(block);
         for (int a = 0; a < 3; ++a) {
@@ -53,12 +53,12 @@ struct BlockRange {
 };
 static_assert(sizeof(BlockRange) == 48, "the same on host and device");
 
-/// Box of block indices, inclusive.
+/// A box of block indices; `hi` is inclusive.
 struct BlockBox {
     Vec3i lo, hi;
 };
 
-/// Blocks of the range that the box touches. A box outside the range comes back empty.
+/// Returns the blocks of the range that the box touches. It is empty for a box outside the range.
 /// @param box  scene units
 [[nodiscard]] HEDDLE_HD inline BlockBox
 blocks_of(const Bounds& box, const BlockRange& range, Vec3d voxel_size) {

@@ -11,14 +11,14 @@
 
 namespace heddle {
 
-/// Where a voxelizer's finished blocks go, from several threads: each is shown to a visitor while
-/// its sums are at hand, and kept without the sums that the result does not hold.
+/// Receives a voxelizer's finished blocks from several threads. Each is passed to a visitor while
+/// its sums are available, and then stored, without the sums unless the result holds them.
 class BlockSink {
 public:
-    /// @param info     of the result, counts unknown; without fields.masks, sums are dropped
+    /// @param info     info of the result, without counts; sums are dropped unless fields.masks
     /// @param blocks   the index of every block, by rank
-    /// @param spool    blocks wait in a temporary file
-    /// @param folder   of the file
+    /// @param spool    true: blocks are stored in a temporary file
+    /// @param folder   folder of that file
     /// @param visitor  may be null
     BlockSink(const VoxelLevelInfo& info,
               std::span<const Vec3i> blocks,
@@ -31,17 +31,18 @@ public:
         if (visitor_ != nullptr) visitor_->begin(info, blocks, spool ? folder : "");
     }
 
-    /// Takes a block; what is left in it has no meaning.
+    /// Visits and stores a block, whose contents are unspecified afterwards.
     void take(std::size_t rank, VoxelBlock& block) {
         if (visitor_ != nullptr) visitor_->visit(rank, block);
         keep(rank, block);
     }
-    /// The same of a block that the visitor has by another way.
+    /// Stores a block that the visitor has received in another way.
     void keep(std::size_t rank, VoxelBlock& block) {
         if (!keep_sums_) drop_sums(block);
         keeper_.keep(rank, block);
     }
 
+    /// Returns the level of all stored blocks. Call once, after the last block.
     [[nodiscard]] std::unique_ptr<VoxelLevel> finish() { return keeper_.finish(); }
 
 private:

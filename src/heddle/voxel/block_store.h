@@ -10,10 +10,12 @@
 
 namespace heddle {
 
-/// Where finished blocks go, from several threads: memory, or a temporary file.
+/// Stores finished blocks from several threads, in memory or in a temporary file.
 class BlockStore {
 public:
-    /// @param folder  of the file
+    /// @param blocks  number of blocks
+    /// @param spool   true: a temporary file
+    /// @param folder  folder of that file
     BlockStore(VoxelLevelInfo info, std::size_t blocks, bool spool, const std::string& folder) {
         if (spool) {
             spooled_ = std::make_unique<SpooledLevel>(folder);
@@ -26,7 +28,7 @@ public:
         }
     }
 
-    /// Keeps block i; what is left in `block` has no meaning.
+    /// Stores block i. The contents of `block` are unspecified afterwards.
     void keep(std::size_t i, VoxelBlock& block) {
         block.shrink_to_fit();
         const std::scoped_lock lock(mutex_);
@@ -39,6 +41,7 @@ public:
         }
     }
 
+    /// Returns the level of all stored blocks, with its counts. Call once, after the last block.
     [[nodiscard]] std::unique_ptr<VoxelLevel> finish() {
         std::unique_ptr<VoxelLevel> kept = std::move(grid_);
         if (spooled_) kept = std::move(spooled_);

@@ -8,7 +8,7 @@ namespace heddle {
 
 namespace detail {
 
-/// The Z-order of cell (q, p) of 8 x 8, bits of q first.
+/// Returns the number in Z-order of cell (q, p) of 8 x 8, bits of q first.
 [[nodiscard]] HEDDLE_HD constexpr int interleave(int q, int p) {
     int z = 0;
     for (int b = 0; b < 3; ++b) z |= (p >> b & 1) << (2 * b) | (q >> b & 1) << (2 * b + 1);
@@ -16,7 +16,7 @@ namespace detail {
 }
 
 struct FootprintTables {
-    std::uint8_t cell[3][64]{}; ///< by level, below 3, and bit of a word of 8 x 8 columns
+    std::uint8_t cell[3][64]{}; ///< [level below 3][bit of a word of 8 x 8 columns]
     std::uint8_t straight[64]{};
 };
 [[nodiscard]] constexpr FootprintTables make_footprint_tables() {
@@ -30,12 +30,12 @@ struct FootprintTables {
     }
     return out;
 }
-/// Cell, in Z-order, that a bit of a word of 8 x 8 columns lies in at a level below 3.
+/// Returns the cell, in Z-order, of a bit of a word of 8 x 8 columns, at a level below 3.
 [[nodiscard]] HEDDLE_INLINE int cell_of_column(int level, int bit) {
     static constexpr FootprintTables kTables = make_footprint_tables();
     return kTables.cell[level][bit];
 }
-/// 8 q + p of a cell's number in Z-order.
+/// Returns 8 q + p for a cell's number in Z-order.
 [[nodiscard]] HEDDLE_INLINE int straight(int z) {
     static constexpr FootprintTables kTables = make_footprint_tables();
     return kTables.straight[z];
@@ -43,14 +43,13 @@ struct FootprintTables {
 
 } // namespace detail
 
-/// Columns of a voxel's face counted in n x n cells; n = 8, and 4 of it.
+/// Counts the covered columns of a voxel's face in 8 x 8 cells, from which 4 x 4 are summed.
 ///
-/// Cell (q, p) is counter number Z-order (q, p), as the words are: word of 8 x 8 columns (or fewer)
-/// by word.
+/// The counters of cells (q, p) are in Z-order, and so are the words of 8 x 8 columns or fewer.
 class Footprint {
 public:
-    /// @param level      of the voxel
-    /// @param subvoxels  of level 0, per voxel axis
+    /// @param level      level of the voxel
+    /// @param subvoxels  subvoxels of level 0 per voxel axis
     HEDDLE_HD Footprint(int level, int subvoxels) : level_(level), n_(subvoxels) {}
 
     /// Counts the bits of word `at` of the voxel's columns along one axis.
@@ -60,7 +59,7 @@ public:
             count_[at >> (2 * (level_ - 3))] += count_bits(word);
             return;
         }
-        if (n_ == 8) { // one cell a column, or four or sixteen columns a cell
+        if (n_ == 8) { // 1, 4 or 16 columns per cell
             const std::uint64_t first = at << (2 * (3 - level_));
             for (; word != 0; word &= word - 1) {
                 const int cell = detail::cell_of_column(level_, lowest_bit(word));
@@ -81,11 +80,11 @@ public:
         }
     }
 
-    /// n x n bits, bit q n + p: as many as the covered share of the face rounds to, the fullest
-    /// cells first, of equally full ones the lower: so the bits' own share is the coverage to 1 /
-    /// (2 n n).
+    /// Returns n x n bits; bit q n + p is cell (q, p). The fullest cells are set, of equally full
+    /// ones the lower, so that the share of set bits is the coverage within 1 / (2 n n).
+    /// @param n  8 or 4
     [[nodiscard]] HEDDLE_INLINE std::uint64_t bits(int n) const {
-        constexpr int kNarrow = 11; // four cells of at most 4^11 columns, and 6 bits below them
+        constexpr int kNarrow = 11; // 4 cells of 4^11 columns and 6 more bits fit in 31 bits
         if (level_ > kNarrow) {
             return n == 8 ? bits_of<8, std::int64_t>() : bits_of<4, std::int64_t>();
         }
@@ -95,7 +94,7 @@ public:
 private:
     template <int N, typename Key>
     [[nodiscard]] HEDDLE_INLINE std::uint64_t bits_of() const {
-        Key keys[N * N]; // fuller cells first, of equally full ones the lower
+        Key keys[N * N]; // larger for fuller cells; of equally full ones, for the lower
         constexpr int kMerged = N == 8 ? 1 : 4;
         std::int64_t total = 0;
         Key any = 0;
@@ -118,8 +117,9 @@ private:
         }
         return out;
     }
-    /// The least of the `set` largest keys, which all differ: bit by bit, which takes no order.
-    /// @param any  all keys' bits
+    /// Returns the smallest of the `set` largest keys, bit by bit, without sorting. All keys
+    /// differ.
+    /// @param any  OR of all keys
     template <int kCount, typename Key>
     [[nodiscard]] HEDDLE_INLINE static Key least_of(const Key (&keys)[kCount], Key any, Key set) {
         Key least = 0;
@@ -141,7 +141,8 @@ private:
         while (bits >= 2 * out) out *= 2;
         return out;
     }
-    /// Cells per axis that one column covers, where there are fewer columns than cells.
+    /// Returns the cells per axis that one column covers; 1 unless there are fewer columns than
+    /// cells.
     [[nodiscard]] HEDDLE_INLINE int spread_of() const {
         const int columns = n_ << (level_ < 3 ? level_ : 3);
         return columns < 8 ? 8 / columns : 1;

@@ -9,7 +9,8 @@
 namespace heddle {
 namespace {
 
-/// Words in Z-order of a face of n 2^level columns an axis, where covered(p, q) says so.
+/// Returns the words, in Z-order, of a face of n 2^level columns per axis, with the bits set for
+/// which covered(p, q) is true.
 template <typename Covered>
 Footprint footprint_of(int level, int n, const Covered& covered) {
     Footprint face(level, n);

@@ -9,7 +9,7 @@
 
 namespace heddle {
 
-/// First and last index of some voxels on each axis. It starts empty, with lo > hi.
+/// The first and the last index of some voxels on each axis. It starts empty, with lo > hi.
 struct IndexBox {
     static constexpr std::int32_t kMost = std::numeric_limits<std::int32_t>::max();
 
@@ -26,16 +26,16 @@ struct IndexBox {
     void grow(Vec3i index) { grow(IndexBox{index, index}); }
 };
 
-/// The box of a leaf's voxels; empty where it has none.
+/// Returns the box of a leaf's voxels; empty if it has none.
 [[nodiscard]] inline IndexBox box_of(const VoxelLeaf& leaf) {
-    std::uint32_t layers = 0; // bit x: a voxel has that x
-    std::uint64_t face = 0;   // bit y * 8 + z: a voxel has that y and z
+    std::uint32_t layers = 0; // bit x is set if any voxel has that x
+    std::uint64_t face = 0;   // bit y * 8 + z is set if any voxel has that y and z
     for (std::uint32_t x = 0; x < 8; ++x) {
         layers |= (leaf.active[x] != 0 ? 1u : 0u) << x;
         face |= leaf.active[x];
     }
     if (layers == 0) return {};
-    std::uint64_t row = face | face >> 32; // in bits 0 to 7, bit z
+    std::uint64_t row = face | face >> 32; // bits 0 to 7 become one bit per z
     row |= row >> 16;
     row |= row >> 8;
     const auto z = static_cast<std::uint32_t>(row & 255);

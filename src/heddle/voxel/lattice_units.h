@@ -8,20 +8,20 @@
 
 namespace heddle {
 
-/// Voxels along a block's edge. Its voxels' sums (at most 5 MiB, cloth fills a third) stay in a
-/// core's share of the cache, and few spans lie on a border and are expanded twice: measured 16,
-/// 32, 64.
+/// Voxels along a block's edge. The sums of a block (at most 5 MiB; cloth fills a third) fit in a
+/// core's share of the cache, and few spans cross a border and are expanded twice. 32 was the
+/// fastest of 16, 32 and 64.
 constexpr int kBlockVoxels = 32;
 
-/// A lattice measured in its own unit, the smallest subvoxel edge: lengths stay isotropic on
-/// non-cubic voxels, and numbers stay small.
+/// A lattice measured in its own unit, the smallest subvoxel edge. Lengths stay isotropic if voxels
+/// are not cubes, and numbers stay small.
 struct LatticeUnits {
     double unit = 1.0;         ///< scene units
     Vec3d voxel_size;          ///< scene units
     int n = 8;                 ///< subvoxels per axis
     Vec3f edge;                ///< subvoxel edges, units; the smallest is 1
     Vec3f voxel;               ///< voxel edges, units
-    Vec3f inv_edge, inv_voxel; ///< their reciprocals
+    Vec3f inv_edge, inv_voxel; ///< reciprocals of `edge` and `voxel`
 
     LatticeUnits() = default;
     explicit LatticeUnits(const Lattice& lattice)

@@ -11,16 +11,16 @@
 
 namespace heddle {
 
-/// A voxel of a block as a walk meets it. It holds during the call that it is handed to.
+/// A voxel of a block, as for_each_voxel() passes it. It is valid during that call only.
 struct BlockVoxel {
     Vec3i at;                ///< its index in the level's lattice
-    const VoxelBlock& block; ///< that it lies in
+    const VoxelBlock& block; ///< the block that contains it
     std::size_t voxel = 0;   ///< its number in the block's arrays per voxel
     std::size_t lobe = 0;    ///< number of its first lobe in the block's arrays per lobe
 
     [[nodiscard]] const Coverage& coverage() const { return block.coverage[voxel]; }
     [[nodiscard]] std::size_t lobe_count() const { return block.lobe_count[voxel]; }
-    // Zeros where the block has none.
+    // These return zeros if the block does not have the field.
     [[nodiscard]] std::uint32_t merge_order() const { return of_voxel(block.merge_order); }
     [[nodiscard]] std::array<std::uint64_t, 3> columns() const { return of_voxel(block.columns); }
     [[nodiscard]] std::array<std::uint64_t, 3> footprints() const {
@@ -29,9 +29,9 @@ struct BlockVoxel {
     [[nodiscard]] std::array<std::uint8_t, 3> correlation() const {
         return of_voxel(block.correlation);
     }
-    /// 1 to K lobes, the heaviest first.
+    /// Returns its 1 to K lobes, the heaviest first.
     [[nodiscard]] std::span<const Lobe> lobes() const { return of_lobes(block.lobes); }
-    /// As many as there are lobes; empty where the block has none.
+    /// These return one element per lobe; empty if the block does not have the field.
     [[nodiscard]] std::span<const LobeMaps> maps() const { return of_lobes(block.maps); }
     [[nodiscard]] std::span<const PackedSggx> tangents() const { return of_lobes(block.tangents); }
     [[nodiscard]] std::span<const LobeMoment> moments() const { return of_lobes(block.moments); }
@@ -48,9 +48,8 @@ private:
     }
 };
 
-/// Calls visit(x, bit) for each bit that is set in a leaf's mask, in ascending order: the voxel
-/// (x, bit / 8, bit % 8) of the leaf is active.
-/// @param active  laid out as VoxelLeaf::active
+/// Calls visit(x, bit) for each active voxel (x, bit / 8, bit % 8) of a leaf, in ascending order.
+/// @param active  mask of the leaf, laid out as VoxelLeaf::active
 template <typename Visit>
 void for_each_active(const std::array<std::uint64_t, 8>& active, const Visit& visit) {
     for (std::size_t x = 0; x < 8; ++x) {
@@ -60,15 +59,15 @@ void for_each_active(const std::array<std::uint64_t, 8>& active, const Visit& vi
     }
 }
 
-/// Index of a voxel that for_each_active names.
-/// @param origin  of its leaf
+/// Returns the index of a voxel that for_each_active() passes.
+/// @param origin  origin of its leaf
 [[nodiscard]] inline Vec3i voxel_index(Vec3i origin, std::size_t x, int bit) {
     return origin + Vec3i{static_cast<std::int32_t>(x), bit >> 3, bit & 7};
 }
 
-/// Calls visit(BlockVoxel) for each voxel of a leaf, in the order of the block's arrays, which is
-/// that of ascending (x, y, z).
-/// @param leaf  one of the block's
+/// Calls visit(BlockVoxel) for each voxel of a leaf, in the order of the block's arrays: ascending
+/// (x, y, z).
+/// @param leaf  a leaf of the block
 template <typename Visit>
 void for_each_voxel(const VoxelBlock& block, const VoxelLeaf& leaf, const Visit& visit) {
     std::size_t voxel = leaf.first_voxel;
@@ -85,7 +84,7 @@ void for_each_voxel(const VoxelBlock& block, const Visit& visit) {
     for (const VoxelLeaf& leaf : block.leaves) for_each_voxel(block, leaf, visit);
 }
 
-/// Calls visit(BlockVoxel) for each voxel of a level, block by block in the source's order.
+/// Calls visit(BlockVoxel) for each voxel of a level, block by block in the level's order.
 template <typename Visit>
 void for_each_voxel(const VoxelLevel& source, const Visit& visit) {
     VoxelBlock scratch;

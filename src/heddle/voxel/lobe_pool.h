@@ -15,7 +15,7 @@ namespace heddle {
 struct LobePool {
     int count = 0; ///< at most kMaxPool
     std::array<DirectionSums, kMaxPool> sums;
-    std::array<MapSums, kMaxPool> maps; ///< meaningless unless the grid has map sums
+    std::array<MapSums, kMaxPool> maps; ///< unspecified unless the level has map sums
 
     HEDDLE_HD void add(const DirectionSums& lobe, const MapSums* lobe_maps) {
         const auto at = static_cast<std::size_t>(count++);
@@ -33,19 +33,19 @@ HEDDLE_INLINE void add_maps(MapSums& a, const MapSums& b) {
     a.anisotropy += b.anisotropy;
 }
 
-/// The sums of a lobe whose weight goes from `part` to `whole`, means unchanged.
+/// Returns the sums of a lobe whose weight changes from `part` to `whole` with the same means.
 [[nodiscard]] MapSums scale_maps(const MapSums& maps, std::int64_t whole, std::int64_t part);
 
-/// Lobes that lie in a row, before they are stored: of a LobePool, or where an executor keeps them.
+/// Consecutive lobes before they are stored, in a LobePool or in an executor's arrays.
 struct LobeRow {
     int count = 0;                 ///< at most kMaxPool
-    DirectionSums* sums = nullptr; ///< the first
-    MapSums* maps = nullptr;       ///< the first one's; null without
+    DirectionSums* sums = nullptr; ///< first of `count`
+    MapSums* maps = nullptr;       ///< first of `count`; null: no map sums
 };
 
 namespace detail {
 
-/// Puts each of the first `count` values where `place` says, by a copy.
+/// Moves each of the first `count` values i to place[i].
 template <typename T>
 HEDDLE_INLINE void permute(T* values, int count, const std::uint8_t (&place)[kMaxLobes]) {
     T before[kMaxLobes];
@@ -55,10 +55,10 @@ HEDDLE_INLINE void permute(T* values, int count, const std::uint8_t (&place)[kMa
 
 } // namespace detail
 
-/// Lines up at most kMaxLobes lobes as a voxel stores them: the heaviest first, the others so that
-/// the last one merges first.
-/// @param make_lobes  (DirectionSums*, int count) -> how lobes are compared and merged
-///                    (agglomerate.h)
+/// Orders at most kMaxLobes lobes as a voxel stores them: the heaviest first, and the others so
+/// that the last one merges first.
+/// @param make_lobes  make_lobes(DirectionSums*, int count) returns an object that compares and
+///                    merges the lobes (agglomerate.h)
 /// @return            VoxelBlock::merge_order
 template <typename MakeLobes>
 HEDDLE_INLINE std::uint32_t order_lobes(const LobeRow& row, const MakeLobes& make_lobes) {
@@ -80,11 +80,12 @@ HEDDLE_INLINE std::uint32_t order_lobes(const LobeRow& row, const MakeLobes& mak
     return order.targets;
 }
 
-/// Merges the closest of the lobes until `keep` are left, at most kMaxLobes, moves those to the
-/// front and lines them up.
-/// @param row   count becomes how many are left
-/// @param same  distance below which lobes merge even so (agglomerate.h)
-/// @return      as order_lobes
+/// Merges the closest lobes until at most `keep` are left, moves those to the front and orders them
+/// as order_lobes() does.
+/// @param row   its count becomes the number of lobes that are left
+/// @param keep  at most kMaxLobes
+/// @param same  lobes closer than this merge even if no more than `keep` are left (agglomerate.h)
+/// @return      VoxelBlock::merge_order
 template <typename MakeLobes>
 HEDDLE_INLINE std::uint32_t
 reduce(LobeRow& row, int keep, const MakeLobes& make_lobes, float same = 0.0f) {
@@ -104,8 +105,8 @@ reduce(LobeRow& row, int keep, const MakeLobes& make_lobes, float same = 0.0f) {
     return order_lobes(row, make_lobes);
 }
 
-/// The same of a pool.
-/// @param with_maps  pool.maps count
+/// Does the same for a pool.
+/// @param with_maps  pool.maps is reduced too
 template <typename MakeLobes>
 HEDDLE_INLINE std::uint32_t
 reduce(LobePool& pool, int keep, bool with_maps, const MakeLobes& make_lobes, float same = 0.0f) {
@@ -115,35 +116,35 @@ reduce(LobePool& pool, int keep, bool with_maps, const MakeLobes& make_lobes, fl
     return order;
 }
 
-/// The default way of reduce(): by second moments.
+/// The default `make_lobes` of reduce(): lobes are compared by their second moments.
 struct ByMoments {
     HEDDLE_INLINE MomentLobes operator()(DirectionSums* lobes, int count) const {
         return MomentLobes(std::span(lobes, static_cast<std::size_t>(count)));
     }
 };
 
-/// reduce() by second moments, compiled for the machine's vectors.
+/// Does reduce() by second moments, compiled for the vector instructions of the machine.
 std::uint32_t reduce_by_moments(LobePool& pool, int keep, bool with_maps, float same = 0.0f);
 
-/// Fits that were just made: the voxels that one flat triangle passes alone have few different
-/// sums.
+/// A cache of recent fits: voxels that only one flat triangle crosses have few different sums.
 class RecentFits {
 public:
+    /// Returns fit_packed(moment, weight), from the cache if it has it.
     [[nodiscard]] PackedSggx fit(const std::int64_t (&moment)[6], std::int64_t weight);
 
 private:
     static constexpr int kBits = 8;
     struct Entry {
         std::int64_t moment[6]{};
-        std::int64_t weight = 0; ///< no lobe's: they weigh 1 or more
+        std::int64_t weight = 0; ///< 0: an empty entry, since lobes have a weight of 1 or more
         PackedSggx sggx;
     };
     std::array<Entry, std::size_t{1} << kBits> entries_;
 };
 
-/// Appends the voxel's lobes, at most kMaxLobes, to the block's arrays of lobes and its count: S is
-/// fitted and packed here and nowhere before.
-/// @param order  of reduce() or order_lobes()
+/// Appends a voxel's lobes, at most kMaxLobes, and their count to the block's arrays. S is fitted
+/// and packed here.
+/// @param order  result of reduce() or order_lobes()
 void append_lobes(const LobePool& pool,
                   std::uint32_t order,
                   const VoxelFields& fields,

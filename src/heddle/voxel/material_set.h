@@ -7,10 +7,9 @@
 
 namespace heddle {
 
-/// Some of a geometry's materials, of which there are at most 256. Crosses to the device as it
-/// lies.
+/// A set of a geometry's materials, of which there are at most 256. It is uploaded as it is.
 struct MaterialSet {
-    std::uint64_t words[4]{}; ///< bit m % 64 of word m / 64: material m
+    std::uint64_t words[4]{}; ///< bit m % 64 of word m / 64 stands for material m
 
     [[nodiscard]] HEDDLE_HD static constexpr std::uint64_t bit_of(std::uint32_t material) {
         return std::uint64_t{1} << (material % 64);
@@ -24,7 +23,7 @@ struct MaterialSet {
         for (const std::uint64_t w : words) sum += static_cast<std::uint32_t>(count_bits(w));
         return sum;
     }
-    /// How many have smaller numbers.
+    /// Returns the count of materials in the set with smaller numbers.
     [[nodiscard]] HEDDLE_HD std::uint32_t count_below(std::uint32_t material) const {
         std::uint32_t sum = 0;
         for (std::uint32_t w = 0; w < material / 64; ++w) {
@@ -33,7 +32,7 @@ struct MaterialSet {
         return sum + static_cast<std::uint32_t>(
                          count_bits(words[material / 64] & (bit_of(material) - 1)));
     }
-    /// Calls visit(material) for each, ascending.
+    /// Calls visit(material) for each material in the set, in ascending order.
     template <typename Visit>
     HEDDLE_HD void for_each(const Visit& visit) const {
         for (std::uint32_t w = 0; w < 4; ++w) {

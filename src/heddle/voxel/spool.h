@@ -9,10 +9,10 @@
 
 namespace heddle {
 
-/// Blocks that wait in a temporary file: a VoxelLevel that holds almost nothing in memory.
+/// A VoxelLevel whose blocks are in a temporary file, so that it needs almost no memory.
 class SpooledLevel final : public VoxelLevel {
 public:
-    /// @param folder  of the file
+    /// @param folder  folder of the file
     explicit SpooledLevel(const std::string& folder) : file_(folder) {}
 
     void resize(std::size_t blocks) { records_.resize(blocks); }
@@ -26,7 +26,7 @@ private:
     struct BlockRecord {
         std::int64_t offset = 0;
         std::uint32_t leaves = 0;
-        std::array<std::uint32_t, 11> sizes{}; ///< of VoxelBlock::for_each_array's vectors
+        std::array<std::uint32_t, 11> sizes{}; ///< of the vectors of for_each_array()
     };
     TempFile file_;
     std::vector<BlockRecord> records_;

@@ -10,17 +10,17 @@
 
 namespace heddle {
 
-// What is stored of a lobe, from its sums: one body for the CPU and for executors.
+// What is stored of a lobe, computed from its sums by the same code on the CPU and on executors.
 
-/// The SGGX whose second moment is the mean of the pooled one, packed.
-/// @param moment  6 sums, as DirectionSums::moment
+/// Returns the packed SGGX whose second moment is the mean of the pooled one.
+/// @param moment  6 sums, laid out as DirectionSums::moment
 /// @param weight  > 0
 [[nodiscard]] HEDDLE_HD inline PackedSggx fit_packed(const std::int64_t* moment,
                                                      std::int64_t weight) {
     return pack(fit_sggx(detail::mean_moment(moment, weight)));
 }
 
-/// A lobe's share of its voxel: Lobe::weight.
+/// Returns a lobe's share of its voxel, as in Lobe::weight.
 /// @param total  weight of all lobes of the voxel
 [[nodiscard]] HEDDLE_HD inline std::uint8_t share_of(std::int64_t weight, std::int64_t total) {
     const double share = static_cast<double>(weight) / static_cast<double>(total);
@@ -37,8 +37,8 @@ namespace detail {
 
 } // namespace detail
 
-/// Means of what maps add to a lobe.
-/// @param weight  of the lobe; > 0
+/// Returns the means of a lobe's map values.
+/// @param weight  weight of the lobe, > 0
 [[nodiscard]] HEDDLE_HD inline LobeMaps mean_maps(const MapSums& sums, std::int64_t weight) {
     LobeMaps mean;
     for (std::size_t i = 0; i < 3; ++i) mean.albedo[i] = detail::mean8(sums.albedo[i], weight);
@@ -48,7 +48,7 @@ namespace detail {
     return mean;
 }
 
-/// The SGGX of a lobe's tangents; all zero where the surface has none.
+/// Returns the packed SGGX of a lobe's tangents; all zero if the surface has none.
 [[nodiscard]] HEDDLE_HD inline PackedSggx fit_tangents(const MapSums& sums) {
     std::int64_t moment[6];
     for (std::size_t i = 0; i < 6; ++i) moment[i] = sums.tangent[i];

@@ -8,11 +8,11 @@
 
 namespace heddle {
 
-/// Numbers of a lobe's sums, in the order of LobeMoment: what gathers addresses them by where they
-/// lie, in a struct or as words on a device.
+/// The numbers of a lobe's sums, in the order of LobeMoment. Gathering addresses the sums by these
+/// numbers, whether they are in a struct or are words on a device.
 struct LobeField {
     enum : int {
-        Moment = 0, ///< and on: xx yy zz xy xz yz
+        Moment = 0, ///< first of xx yy zz xy xz yz
         Weight = 6,
         Count = 7
     };
@@ -20,11 +20,11 @@ struct LobeField {
 static_assert(offsetof(LobeMoment, weight) == LobeField::Weight * sizeof(std::int64_t));
 static_assert(sizeof(LobeMoment) == LobeField::Count * sizeof(std::int64_t));
 
-/// Numbers of a lobe's map sums, in the order of MapSums.
+/// The numbers of a lobe's map sums, in the order of MapSums.
 struct MapField {
     enum : int {
-        Tangent = 0, ///< and on: xx yy zz xy xz yz
-        Albedo = 6,  ///< and on: red, green, blue
+        Tangent = 0, ///< first of xx yy zz xy xz yz
+        Albedo = 6,  ///< first of red, green, blue
         Roughness = 9,
         Metalness = 10,
         Anisotropy = 11,
@@ -37,13 +37,13 @@ static_assert(offsetof(MapSums, metalness) == MapField::Metalness * sizeof(std::
 static_assert(offsetof(MapSums, anisotropy) == MapField::Anisotropy * sizeof(std::int64_t));
 static_assert(sizeof(MapSums) == MapField::Count * sizeof(std::int64_t));
 
-/// A lobe's sum by its number. @tparam Sums  has `moment` and `weight`
+/// Returns a lobe's sum by its number. @tparam Sums  has `moment` and `weight`
 template <typename Sums>
 [[nodiscard]] HEDDLE_HOST_INLINE std::int64_t& sum_of(Sums& lobe, int field) {
     return field < LobeField::Weight ? lobe.moment[static_cast<std::size_t>(field)] : lobe.weight;
 }
 
-/// A map sum by its number.
+/// Returns a map sum by its number.
 [[nodiscard]] HEDDLE_HOST_INLINE std::int64_t& map_sum_of(MapSums& maps, int field) {
     switch (field) {
     case MapField::Roughness: return maps.roughness;

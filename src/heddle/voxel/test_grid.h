@@ -10,11 +10,11 @@
 #include <map>
 #include <tuple>
 
-// Voxels for the tests and the bench: no voxelizer needed.
+// Voxels for tests and benchmarks that are made without the voxelizer.
 
 namespace heddle::testing {
 
-/// Packed SGGX of a needle along the unit vector `d`: eigenvalues 1, w^2, w^2 times a scale.
+/// Returns the packed SGGX of a needle along the unit vector `d`: eigenvalues 0.9 x (1, w^2, w^2).
 inline PackedSggx needle(Vec3f d, float w = 0.15f) {
     const float k = 0.9f, e = w * w * k;
     const auto entry = [&](int a, int b) { return (k - e) * d[a] * d[b] + (a == b ? e : 0.0f); };
@@ -27,14 +27,14 @@ struct TestVoxel {
 };
 using VoxelMap = std::map<std::tuple<int, int, int>, TestVoxel>;
 
-/// Appends one leaf's voxels to a block.
+/// Appends one voxel to a block's arrays.
 inline void push_voxel(VoxelBlock& block, Coverage coverage, const std::vector<Lobe>& lobes) {
     block.coverage.push_back(coverage);
     block.lobe_count.push_back(static_cast<std::uint8_t>(lobes.size()));
     block.lobes.insert(block.lobes.end(), lobes.begin(), lobes.end());
 }
 
-/// Blocks of `block_voxels` per axis from voxels by index.
+/// Returns the blocks, of `block_voxels` voxels per axis, that hold the given voxels.
 inline std::vector<VoxelBlock> make_blocks(const VoxelMap& voxels, int block_voxels = 32) {
     const auto floor_to = [](int i, int n) { return (i >= 0 ? i / n : -((n - 1 - i) / n)) * n; };
     using Key = std::tuple<int, int, int>;
@@ -65,7 +65,7 @@ inline std::vector<VoxelBlock> make_blocks(const VoxelMap& voxels, int block_vox
     return blocks;
 }
 
-/// Fills maps and tangents with bytes that depend on the lobe, as the fields say.
+/// Fills the maps and tangents that the fields ask for with bytes that depend on the lobe.
 inline void add_fields(MemoryLevel& grid) {
     for (VoxelBlock& block : grid.blocks) {
         for (std::size_t l = 0; l < block.lobes.size(); ++l) {
@@ -96,8 +96,8 @@ inline void count_voxels(MemoryLevel& grid) {
     }
 }
 
-/// A helix of a solid tube about the y axis: `turns` turns, radius `big`, tube radius `thin`,
-/// voxels. Coverage fades over the tube's last voxel; lobes are needles along the helix.
+/// Returns a solid tube along a helix about the y axis: `turns` turns of radius `big`, tube radius
+/// `thin`, in voxels. Coverage fades over the tube's last voxel; lobes are needles along the helix.
 inline MemoryLevel make_helix(double big = 40.0, double thin = 6.0, int turns = 3) {
     VoxelMap voxels;
     const double pitch = 3.5 * thin;
@@ -139,7 +139,8 @@ inline MemoryLevel make_helix(double big = 40.0, double thin = 6.0, int turns = 
     return grid;
 }
 
-/// Two leaves of cloth thick, 4 x 4 leaves wide: 37 % of each active, directions that wander.
+/// Returns a block of cloth, two leaves thick and 4 x 4 leaves wide: 37 % of the voxels of each
+/// leaf are active, and directions vary from leaf to leaf.
 inline VoxelBlock make_cloth_block(int bx, int bz, int side, std::uint64_t seed) {
     VoxelBlock block;
     for (int x = 0; x < 4; ++x) {
@@ -173,7 +174,7 @@ inline VoxelBlock make_cloth_block(int bx, int bz, int side, std::uint64_t seed)
     return block;
 }
 
-/// A sheet of about `voxels` voxels in blocks of 32 x 16 x 32.
+/// Returns a sheet of about `voxels` voxels in blocks of 32 x 16 x 32.
 inline MemoryLevel make_cloth(double voxels) {
     MemoryLevel grid;
     grid.info().name = "cloth";

@@ -86,7 +86,7 @@ Bins::Lists Bins::fill(std::span<const std::uint32_t> chosen, const Progress& pr
         const std::uint64_t at = std::atomic_ref(cursor[i]).fetch_add(1, std::memory_order_relaxed);
         lists.primitives[at] = id;
     });
-    // filled in any order by many threads: sorted, every run sees the same lists
+    // many threads fill the lists in any order, so they are sorted to be the same in every run
     parallel_chunks(chosen.size(), 64, [&](std::size_t b, std::size_t e) {
         for (std::size_t i = b; i < e; ++i) {
             std::sort(lists.primitives.begin() + static_cast<std::ptrdiff_t>(lists.first[i]),

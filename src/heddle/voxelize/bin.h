@@ -15,6 +15,7 @@ namespace heddle {
 /// All triangles of a geometry as one numbered list.
 class TriangleSource {
 public:
+    /// @param geometry  must outlive this
     explicit TriangleSource(const Geometry& geometry);
     [[nodiscard]] std::uint64_t count() const { return first_.back(); }
     [[nodiscard]] TriangleId place(std::uint64_t triangle) const {
@@ -23,19 +24,20 @@ public:
                 static_cast<std::uint32_t>(triangle - first_[mesh])};
     }
     [[nodiscard]] const Geometry& geometry() const { return geometry_; }
-    /// How far height maps move the mesh's points at most, scene units.
+    /// Returns the largest distance that height maps move the mesh's points, in scene units.
     [[nodiscard]] double displacement(std::uint32_t mesh) const { return displacement_[mesh]; }
 
 private:
     const Geometry& geometry_;
-    std::vector<std::uint64_t> first_; ///< per mesh, and the end
+    std::vector<std::uint64_t> first_; ///< first triangle of each mesh, and the end
     std::vector<double> displacement_; ///< per mesh, scene units
 };
 
-/// Which primitives touch which block. Built once as counts, then filled batch by batch.
+/// The primitives that touch each block. They are counted once and then listed batch by batch.
 class Bins {
 public:
-    /// Counts; what it is made of must outlive it. @throws Error  Cancelled
+    /// Counts the primitives of all blocks. The arguments must outlive this. @throws Error
+    /// Cancelled
     Bins(const FiberSource& fibers,
          const TriangleSource& triangles,
          const LatticeUnits& units,
@@ -43,21 +45,23 @@ public:
          const Progress& progress);
 
     [[nodiscard]] const BlockRange& range() const { return range_; }
-    /// Occupied blocks, ascending.
+    /// Returns the numbers of the occupied blocks, ascending.
     [[nodiscard]] const std::vector<std::uint32_t>& blocks() const { return blocks_; }
-    /// Primitives of a block, by its number.
+    /// Returns the number of primitives of a block, by the block's number.
     [[nodiscard]] std::uint64_t entries(std::uint32_t block) const { return counts_[block]; }
     [[nodiscard]] std::uint64_t total_entries() const { return total_; }
 
-    /// The primitives of some blocks, each block's ascending.
+    /// The primitives of some blocks, ascending within each block.
     struct Lists {
-        std::vector<std::uint64_t> first; ///< one offset a block, and the end
+        std::vector<std::uint64_t> first; ///< offset of each block, and the end
         std::vector<Primitive> primitives;
         [[nodiscard]] std::span<const Primitive> of(std::size_t i) const {
             return std::span(primitives).subspan(first[i], first[i + 1] - first[i]);
         }
     };
-    /// @param chosen  block numbers out of blocks(), ascending
+    /// Returns the primitives of the chosen blocks.
+    /// @param chosen  block numbers from blocks(), ascending
+    /// @throws Error  Cancelled
     [[nodiscard]] Lists fill(std::span<const std::uint32_t> chosen, const Progress& progress) const;
     [[nodiscard]] std::int64_t byte_count() const;
 

@@ -10,7 +10,7 @@
 
 namespace heddle {
 
-/// Calls visit(x, y, z) for the index of each block of the range that the piece's control hull,
+/// Calls visit(x, y, z) with the index of each block of the range that the piece's control hull,
 /// grown by its reach, touches.
 template <typename Visit>
 HEDDLE_HD inline void for_each_block(const FiberView& fibers,
@@ -30,7 +30,7 @@ HEDDLE_HD inline void for_each_block(const FiberView& fibers,
     }
 }
 
-/// True when the plane through the triangle, thickened by `margin`, meets the block's box.
+/// Returns true if the plane of the triangle, thickened by `margin`, intersects the block's box.
 [[nodiscard]] HEDDLE_HD inline bool
 plane_meets(const Vec3d (&p)[3], Vec3d normal, double margin, Vec3d center, Vec3d half) {
     const double distance = dot(normal, center - p[0]);
@@ -39,7 +39,7 @@ plane_meets(const Vec3d (&p)[3], Vec3d normal, double margin, Vec3d center, Vec3
     return std::abs(distance) <= reach * (1.0 + 1e-9);
 }
 
-/// By how much a hit may lie outside of its triangle, scene units: the scan snaps vertices to a
+/// Returns how far a hit may lie outside its triangle, in scene units. The scan snaps vertices to a
 /// lattice of half this pitch.
 [[nodiscard]] HEDDLE_HD inline double snap_margin(const LatticeUnits& units) {
     const Vec3d voxel = units.voxel_size;
@@ -47,10 +47,10 @@ plane_meets(const Vec3d (&p)[3], Vec3d normal, double margin, Vec3d center, Vec3
                   (units.n * static_cast<double>(kScanOne)));
 }
 
-/// Calls visit(x, y, z) for the index of each block of the range that the triangle's box touches
-/// and its plane meets.
+/// Calls visit(x, y, z) with the index of each block of the range that both the triangle's box and
+/// its plane intersect.
 /// @param corners  scene units
-/// @param move     how far height maps move its points at most, scene units
+/// @param move     largest distance that height maps move its points, scene units
 template <typename Visit>
 HEDDLE_HD inline void for_each_block(const Vec3f (&corners)[3],
                                      double move,

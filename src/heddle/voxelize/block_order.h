@@ -10,9 +10,9 @@
 
 namespace heddle {
 
-/// The occupied blocks in Z-order: what is next to each other is done soon after each other.
+/// The occupied blocks in Z-order, so that neighbouring blocks are processed soon after each other.
 struct BlockOrder {
-    std::vector<std::uint32_t> block; ///< numbers
+    std::vector<std::uint32_t> block; ///< numbers of the blocks
     std::vector<Vec3i> index;
 
     BlockOrder(const BlockRange& range, std::vector<std::uint32_t> occupied)

@@ -5,7 +5,7 @@
 namespace heddle {
 namespace {
 
-/// What varies over the geometry's materials decides which optional data the voxels carry.
+/// Returns the optional fields that the voxels have, which depend on the maps of the materials.
 VoxelFields fields_of(const Geometry& geometry) {
     VoxelFields fields;
     for (const CurveSet& set : geometry.curves) {

@@ -13,36 +13,38 @@
 
 namespace heddle {
 
-/// All that one voxelization shares: read by every thread.
+/// The data that all threads of one voxelization share and only read.
 struct VoxelizeContext {
     const PreparedGeometry& prepared;
     const VoxelizeOptions& options;
     FitOptions fit;
 
-    /// @param with_sums  finished blocks have their sums, for a BlockVisitor, also where the result
+    /// @param with_sums  finished blocks have their sums, for a BlockVisitor, even if the result
     ///                   does not hold them
     VoxelizeContext(const PreparedGeometry& prepared,
                     const VoxelizeOptions& options,
                     bool with_sums = false);
 
-    /// Which optional data the result holds.
+    /// Returns the optional fields of the result.
     [[nodiscard]] VoxelFields fields() const;
-    /// What is known of the result before it is there.
+    /// Returns the info of the result, without its counts.
     [[nodiscard]] VoxelLevelInfo info() const;
 };
 
-/// Turns one block's primitives into voxels; keeps its memory from block to block.
+/// Turns one block's primitives into voxels. Its memory is reused from block to block.
 class BlockWorker {
 public:
     explicit BlockWorker(const VoxelizeContext& context);
 
+    /// Voxelizes one block.
     /// @param block  number in the context's range
+    /// @throws Error  Cancelled
     BlockCounts run(std::uint64_t block,
                     std::span<const Primitive> primitives,
                     const Progress& progress,
                     VoxelBlock& out);
 
-    /// Resident bytes of one worker.
+    /// Returns the resident bytes of one worker.
     [[nodiscard]] static std::int64_t byte_count(const FitOptions& fit);
 
 private:
@@ -52,12 +54,12 @@ private:
     TriangleGatherer triangles_;
 };
 
-/// Workers for whichever thread asks.
+/// A pool of workers, one per thread.
 class WorkerPool {
 public:
     explicit WorkerPool(const VoxelizeContext& context) : context_(context) {}
 
-    /// Calls body(worker) with a worker of this thread's own.
+    /// Calls body(worker) with a worker that no other thread uses meanwhile.
     template <typename Body>
     void with(const Body& body) {
         workers_.with([&] { return std::make_unique<BlockWorker>(context_); }, body);

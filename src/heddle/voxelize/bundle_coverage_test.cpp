@@ -7,8 +7,9 @@ namespace {
 
 using namespace heddle::test;
 
-// A face's error has a standard deviation of about .02, and a bundle has 300 faces and more: the
-// bias of four bundles is known to .0006. The bounds are those that the voxelizer promises.
+// The error of a face has a standard deviation of about 0.02, and a bundle has over 300 faces, so
+// the bias of four bundles is known within 0.0006. The bounds are those that the voxelizer
+// promises.
 void expect_near_rays(Bundle (*make)(const BundleOptions&), BundleOptions options) {
     BundleError error;
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {

@@ -60,7 +60,7 @@ DisplaceTriangle triangle_of(const Mesh& mesh, std::size_t i) {
     return t;
 }
 
-// A rough height with no derivative to speak of: in [-1.5, 1.5].
+// A rough height in [-1.5, 1.5], without a useful derivative.
 float rough_height(Uv uv) {
     const float x = 23.0f * uv.u + 1.7f * uv.v, y = 31.0f * uv.v - 2.0f * uv.u;
     return 1.5f * (std::abs(x - std::floor(x) - 0.5f) + std::abs(y - std::floor(y) - 0.5f)) - 0.75f;

@@ -7,9 +7,9 @@ namespace {
 
 using namespace heddle::test;
 
-// Which columns' centres a fiber meets is chance: the error scatters from fiber to fiber, and four
-// standard errors of its mean are allowed, besides .1 % of a systematic part. `most` bounds the
-// whole, so that scatter cannot excuse anything. bench/results/exact.md has the full-size figures.
+// It is random which columns' centres a fiber hits, so the error varies from fiber to fiber. Four
+// standard errors of its mean are allowed, and 0.1 % of a systematic part. `most` bounds the sum,
+// so that the variance cannot hide an error. bench/results/exact.md has the full-size figures.
 void expect_exact(const IsolatedOptions& options, double most) {
     const IsolatedResult result = IsolatedFibers(options).measure();
     for (std::size_t a = 0; a < 3; ++a) {
@@ -19,7 +19,7 @@ void expect_exact(const IsolatedOptions& options, double most) {
         EXPECT_LT(std::fabs(all.error()), 0.001 + 4.0 * all.deviation());
         EXPECT_LT(std::fabs(all.error()), most);
         for (const CoverageTally& t : result.angle[a]) {
-            if (t.fibers < 8) continue; // too few to tell their scatter
+            if (t.fibers < 8) continue; // too few to estimate their variance
             EXPECT_LT(std::fabs(t.error()), 0.002 + 4.5 * t.deviation()) << t.fibers << " fibers";
         }
     }

@@ -18,7 +18,7 @@
 namespace heddle {
 namespace {
 
-/// A voxel as it came out.
+/// A voxel of the result.
 struct Found {
     Coverage coverage;
     std::vector<Lobe> lobes;
@@ -69,7 +69,7 @@ VoxelizeOptions voxels_of(double size, int subvoxels = 8) {
     return options;
 }
 
-/// Sum of coverage x face area, per axis.
+/// Returns the sum of coverage x face area per axis.
 Vec3d covered_area(const FoundVoxels& voxels, Vec3d h) {
     Vec3d sum;
     for (const auto& [at, v] : voxels) {
@@ -206,7 +206,7 @@ Geometry textured_ball() {
     return g;
 }
 
-/// How many voxels of `whole` lie inside `box`; all of them are to be the same in `region`.
+/// Returns the number of voxels of `whole` inside `box`, and expects all of them in `region`.
 std::size_t expect_same_inside(const FoundVoxels& whole,
                                const FoundVoxels& region,
                                const Bounds& box,

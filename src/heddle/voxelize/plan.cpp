@@ -15,30 +15,30 @@ namespace heddle {
 namespace {
 
 constexpr double kMaxVoxels = 0x1p40;
-constexpr double kMaxAxis = 0x1p30; ///< indices are 32-bit in VDB; room for the lattice's corner
+constexpr double kMaxAxis = 0x1p30; ///< VDB has 32-bit indices; the origin may lie far away
 constexpr std::int64_t kDefaultVoxels = 512;
 
-/// Seconds of fibers = (a steps + b touched subvoxels + c voxels) / threads; fitted over nine runs
-/// on two cores of an AMD EPYC with AVX2, within 15 % (bench/results/voxelize.md).
+/// Seconds of fibers = (a steps + b touched subvoxels + c voxels) / threads. Fitted to nine runs on
+/// two cores of an AMD EPYC with AVX2, within 15 % (bench/results/voxelize.md).
 constexpr double kSecondsPerStep = 2.28e-8;
 constexpr double kSecondsPerSubvoxel = 8.4e-9;
 constexpr double kSecondsPerVoxel = 3.0e-6;
 
-/// Of surfaces: a triangle in a block that it was binned to, a column's centre line that it meets,
-/// a read of its maps, a voxel. Measured on seven meshes (bench/results/ogre_2048.md).
+/// Seconds of surfaces: per triangle in a block, per hit of a column's centre line, per sample of
+/// its maps, and per voxel. Measured on seven meshes (bench/results/ogre_2048.md).
 constexpr double kSecondsPerTriangle = 1.2e-6;
 constexpr double kSecondsPerHit = 1.6e-8;
 constexpr double kSecondsPerSample = 3.5e-7;
 constexpr double kSecondsPerSurfaceVoxel = 4.0e-7;
 
-/// What the program and its libraries take before any data: measured on `heddle info`.
+/// Memory of the program and its libraries without any data, measured on `heddle info`.
 constexpr std::int64_t kProgramBytes = 38 << 20;
 
 [[noreturn]] void bad(const std::string& what, const std::string& fix) {
     throw Error(ErrorCode::InvalidArgument, "voxelize: " + what, fix);
 }
 
-/// Box of all matter: control hulls grown by the primitives' reach.
+/// Returns the box of the whole geometry: control hulls grown by the primitives' reach.
 Bounds bounds_of(const Geometry& geometry) {
     Bounds box;
     const auto join = [](Bounds a, const Bounds& b) {
@@ -108,7 +108,7 @@ void check_options(const VoxelizeOptions& o) {
     if (o.samples < 0) bad(str("samples is ", o.samples), "use 0 or more");
 }
 
-/// False where all points of each set of curves and each mesh are one: a radius is no extent.
+/// Returns false if every set of curves and every mesh is a single point. A radius is no extent.
 bool has_extent(const Geometry& geometry) {
     const auto differ = [](const std::vector<Vec3f>& points) {
         return std::adjacent_find(points.begin(), points.end(), std::not_equal_to<>()) !=
@@ -120,7 +120,7 @@ bool has_extent(const Geometry& geometry) {
                        [&](const Mesh& mesh) { return differ(mesh.positions); });
 }
 
-/// Curves give tangents; lobes of a surface's material are read as normals.
+/// Refuses curves with a surface's material: their tangents would be taken for normals.
 void check_material(const Geometry& geometry, const CurveSet& set) {
     if (set.material >= geometry.materials.size()) return;
     const Material& material = geometry.materials[set.material];
@@ -147,8 +147,8 @@ void check_geometry(const Geometry& geometry) {
     }
 }
 
-/// The box of all hits: the scan snaps vertices to its lattice, and a surface on a voxel's face
-/// belongs above it. @throws Error when the scan's numbers would not hold the coordinates
+/// Returns the box of all hits. The scan snaps vertices to its lattice, and a surface on a voxel's
+/// face belongs to the voxel above. @throws Error if coordinates are too large for the scan
 Bounds snap_bounds(const Bounds& whole, const Lattice& lattice, const std::string& name) {
     Bounds box;
     for (int a = 0; a < 3; ++a) {
@@ -166,7 +166,7 @@ Bounds snap_bounds(const Bounds& whole, const Lattice& lattice, const std::strin
     return box;
 }
 
-/// Voxels that the region touches. @throws Error when there are too many
+/// Sets the range of voxels that the region touches. @throws Error if there are too many
 void choose_range(VoxelizePlan& plan, const std::string& name) {
     double total = 1.0;
     double most = 0.0;
@@ -192,9 +192,10 @@ void choose_range(VoxelizePlan& plan, const std::string& name) {
         std::isfinite(factor) ? str("use at least ", h.x * factor * 1.01) : "use larger ones");
 }
 
-/// Runs a hashed sample of the blocks and scales what came out: of fibers by the pieces that the
-/// blocks hold, of surfaces by the blocks (a fine mesh has many triangles and no more voxels).
-/// @return  sums over all blocks
+/// Voxelizes a random sample of the blocks and scales the counts: for fibers by the number of
+/// pieces, for surfaces by the number of blocks (a fine mesh has more triangles but not more
+/// voxels).
+/// @return  estimated sums over all blocks
 BlockCounts measure_sample(VoxelizePlan& plan,
                            const VoxelizeContext& context,
                            const Bins& bins,
@@ -203,7 +204,7 @@ BlockCounts measure_sample(VoxelizePlan& plan,
     const std::size_t blocks = bins.blocks().size();
     if (blocks == 0) return {};
     const bool surfaces = context.prepared.triangles.count() > context.prepared.fibers.span_count();
-    // a block of surfaces takes little time, and differs more from the next
+    // a block of surfaces takes little time, but blocks differ more
     const std::size_t wanted = surfaces ? std::clamp<std::size_t>(blocks / 32, 16, 256)
                                         : std::clamp<std::size_t>(blocks / 32, 4, 48);
     const std::size_t stride = std::max<std::size_t>(1, blocks / wanted);
@@ -254,7 +255,7 @@ BlockCounts measure_sample(VoxelizePlan& plan,
             .surface_samples = scaled(&BlockCounts::surface_samples)};
 }
 
-/// @param work  of all blocks, from measure_sample()
+/// @param work  sums over all blocks, from measure_sample()
 double predict_seconds(const VoxelizePlan& plan, const BlockCounts& work) {
     const auto voxels = static_cast<double>(plan.voxels);
     const double fibers = kSecondsPerStep * plan.steps +
@@ -293,7 +294,8 @@ std::int64_t memory_limit(const VoxelizeOptions& options) {
     return std::max<std::int64_t>(available_bytes() / 2, std::int64_t{1} << 30);
 }
 
-/// @throws Error  OutOfMemory when the counters of the blocks alone, empty ones too, are too many
+/// @throws Error  OutOfMemory: the counters of all blocks, including empty ones, take too much
+///                memory
 void check_blocks(const BlockRange& range, const VoxelizeOptions& options) {
     const std::int64_t limit = memory_limit(options);
     const auto counters = static_cast<std::int64_t>(range.count() * sizeof(std::uint32_t));
@@ -305,7 +307,7 @@ void check_blocks(const BlockRange& range, const VoxelizeOptions& options) {
                     "M, use larger voxels, or only a part (bounds)"));
 }
 
-/// Splits the work into batches and decides whether finished blocks wait in a file.
+/// Divides the work into batches and decides whether finished blocks are stored in a file.
 void plan_memory(VoxelizePlan& plan, const VoxelizeContext& context, const Bins& bins) {
     const std::int64_t limit = memory_limit(context.options);
     const std::int64_t fixed = kProgramBytes + geometry_bytes(context.prepared.geometry) +

@@ -7,7 +7,7 @@
 namespace heddle {
 namespace {
 
-/// True if the views point into the geometry's arrays.
+/// Returns true if the views point into the geometry's arrays.
 bool points_into(const FiberView& fibers, const SurfaceView& surfaces, const Geometry& geometry) {
     if (fibers.set_count != geometry.curves.size()) return false;
     if (surfaces.mesh_count != geometry.meshes.size()) return false;
@@ -54,7 +54,7 @@ take_prepared(const VoxelizePlan& plan, const Geometry& geometry, std::uint64_t 
     std::unique_ptr<PreparedGeometry> prepared;
     if (plan.prepared) prepared = plan.prepared->take();
     if (prepared && prepared->is_of(geometry, plan, seed)) return prepared;
-    prepared.reset(); // before the other is made
+    prepared.reset(); // free it before the new one is made
     return std::make_unique<PreparedGeometry>(geometry, plan.lattice, plan.voxel_lo, plan.voxel_hi,
                                               seed);
 }

@@ -14,12 +14,12 @@
 
 namespace heddle {
 
-/// What is made of a geometry before its blocks are voxelized, for one lattice, range of voxels and
-/// seed, whatever the other options are: arc lengths and frames of yarns, averaged textures, and
-/// which blocks hold what.
+/// The data that are computed from a geometry before its blocks are voxelized: arc lengths and
+/// frames of yarns, averaged textures and the primitives of each block. They depend on the lattice,
+/// the range of voxels and the seed, but on no other option.
 class PreparedGeometry {
 public:
-    /// @param geometry  must outlive it, unchanged
+    /// @param geometry  must outlive this, unchanged
     PreparedGeometry(const Geometry& geometry,
                      const Lattice& lattice,
                      Vec3i voxel_lo,
@@ -34,13 +34,13 @@ public:
     const SurfaceSource surfaces;
     const BlockRange range;
 
-    /// The blocks' primitives, counted at the first call. @throws Error  Cancelled
+    /// Returns the blocks' primitives, counted at the first call. @throws Error  Cancelled
     const Bins& bins(const Progress& progress);
-    /// Gives the counts' memory back.
+    /// Frees the memory of bins().
     void drop_bins() { bins_.reset(); }
 
-    /// True if it was made for the same; of a geometry that was changed in place this does not
-    /// tell.
+    /// Returns true if it was made for the same geometry, plan and seed. It does not notice that a
+    /// geometry was modified in place.
     [[nodiscard]] bool
     is_of(const Geometry& other, const VoxelizePlan& plan, std::uint64_t seed) const;
 
@@ -48,14 +48,14 @@ private:
     std::optional<Bins> bins_;
 };
 
-/// Where plan_voxelize() leaves what it has prepared, until the first run by the plan takes it: it
-/// is not in memory any more while the result is written. Safe from several threads.
+/// Holds what plan_voxelize() has prepared until the first run with the plan takes it, so that it
+/// is freed before the result is written. Thread-safe.
 class PreparedSlot {
 public:
     explicit PreparedSlot(std::unique_ptr<PreparedGeometry> prepared)
         : prepared_(std::move(prepared)) {}
 
-    /// Null once it is taken.
+    /// Returns the prepared geometry; null if it was taken before.
     [[nodiscard]] std::unique_ptr<PreparedGeometry> take() {
         const std::scoped_lock lock(mutex_);
         return std::move(prepared_);
@@ -66,8 +66,8 @@ private:
     std::unique_ptr<PreparedGeometry> prepared_;
 };
 
-/// What a run by `plan` needs: what the planner has prepared, or the same made anew where that is
-/// taken or was made for another geometry, lattice, range or seed.
+/// Returns the prepared geometry for a run with `plan`: the planner's, or a new one if the
+/// planner's was taken before or was made for another geometry, lattice, range or seed.
 [[nodiscard]] std::unique_ptr<PreparedGeometry>
 take_prepared(const VoxelizePlan& plan, const Geometry& geometry, std::uint64_t seed);
 

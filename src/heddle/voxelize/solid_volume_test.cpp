@@ -7,7 +7,7 @@ namespace {
 
 using namespace heddle::test;
 
-// n subvoxels are counted with a standard error below 1 / sqrt(n): .3 % for the 100,000 here.
+// The count of n subvoxels has a standard error below 1 / sqrt(n): 0.3 % for the 100,000 here.
 constexpr double kSubvoxels = 1e5;
 
 TEST(SolidVolume, StraightYarnsFillTheirVolume) {

@@ -15,14 +15,14 @@
 
 namespace heddle::test {
 
-/// Which of 64 x 64 rays per voxel face and axis meet something inside the voxel, by brute force.
+/// Finds by brute force which of 64 x 64 rays per voxel face and axis hit something in the voxel.
 /// Voxels have edge 1.
 class RayFaces {
 public:
     static constexpr int kRays = 64; ///< per voxel edge
     using Face = std::array<std::uint64_t, kRays>;
 
-    /// Voxels [lo, hi) are looked at.
+    /// Only voxels [lo, hi) are examined.
     RayFaces(Vec3i lo, Vec3i hi) : lo_(lo), size_(hi - lo) {
         faces_.resize(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) *
                       static_cast<std::size_t>(size_.z));
@@ -95,18 +95,18 @@ private:
     std::vector<std::array<Face, 3>> faces_;
 };
 
-/// A bundle as the voxelizer gets it and as cylinders.
+/// A bundle as a geometry for the voxelizer, and as cylinders.
 struct Bundle {
     Geometry geometry;
     std::vector<ExactCylinder> cylinders;
 };
 
-/// What a bundle is: lengths in subvoxels.
+/// The parameters of a bundle; lengths are in subvoxels.
 struct BundleOptions {
-    double radius = 10.0; ///< of the bundle
+    double radius = 10.0; ///< radius of the bundle
     double fill = 0.4;    ///< sum of the fibers' sections over the bundle's
     double length = 64.0;
-    double slope = 0.15; ///< of the outermost fibers against the bundle's axis: its twist
+    double slope = 0.15; ///< slope of the outermost fibers to the axis: the twist
     int fibers = 150;
     std::uint64_t seed = 1;
 };

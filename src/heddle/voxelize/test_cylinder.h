@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-// Round fibers by their definition, in double: what coverage and volume are measured against.
+// Cylindrical fibers by their definition, in double: the reference for coverage and volume.
 
 namespace heddle::test {
 
@@ -78,7 +78,7 @@ inline double sum_of_silhouettes(const ExactCylinder& k, int axis, double edge) 
     const double inner_lo = std::min(k.from[axis], k.to[axis]) + end; // no flat end between these
     const double inner_hi = std::max(k.from[axis], k.to[axis]) - end;
     double sum = 0.0;
-    double inner = -1.0; // layers without an end are all alike
+    double inner = -1.0; // layers without an end are all equal
     for (double layer = std::floor(lo / edge); layer * edge < hi; ++layer) {
         const double z0 = layer * edge;
         const double z1 = z0 + edge;

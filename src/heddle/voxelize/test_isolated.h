@@ -13,7 +13,7 @@ namespace heddle::test {
 
 inline constexpr int kAngleBins = 6; ///< of 15 degrees between fiber and axis
 
-/// Sums over fibers of coverage x face area and of what it should be, units of scene length^2.
+/// Sums over fibers of coverage x face area, measured and exact, in scene units^2.
 struct CoverageTally {
     double found = 0.0;
     double exact = 0.0;
@@ -66,7 +66,7 @@ inline Vec3d random_unit(CounterRandom& random) {
     return {s * std::cos(phi), s * std::sin(phi), z};
 }
 
-/// Fibers in the cells of a cubic arrangement, so far apart that no voxel sees two.
+/// Fibers in the cells of a cubic arrangement, so far apart that no voxel touches two.
 class IsolatedFibers {
 public:
     explicit IsolatedFibers(const IsolatedOptions& options) : options_(options) {
@@ -90,7 +90,7 @@ public:
                 middle[a] = (cell_index(f, a) * cell_[a] + cell_[a] / 2 + jitter) * h[a];
             }
             add_curve(set, {to_float(middle - half), to_float(middle + half)});
-            // as the voxelizer gets it: rounded to float
+            // rounded to float, as in the geometry
             fibers_.push_back({to_double(set.points[set.points.size() - 2]),
                                to_double(set.points.back()),
                                static_cast<double>(set.default_radius)});

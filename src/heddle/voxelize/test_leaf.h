@@ -17,7 +17,7 @@ struct DirectionSet {
     std::vector<Vec3d> directions; ///< unit
 };
 
-/// What leaves of yarn and hair hold, about the z axis.
+/// Directions that occur in leaves of yarn and hair, about the z axis.
 inline std::vector<DirectionSet> direction_sets() {
     const Vec3d z{0.0, 0.0, 1.0};
     const auto crossed = [&](double angle) {
@@ -33,7 +33,7 @@ inline std::vector<DirectionSet> direction_sets() {
             {"sphere", sphere(96)}};
 }
 
-/// The set turned at random.
+/// Returns the set with a random rotation.
 inline std::vector<Vec3d> turned(const std::vector<Vec3d>& directions, CounterRandom& random) {
     const Vec3d x = random_direction(random);
     const Vec3d y = normalize(cross(x, random_direction(random)));
@@ -43,13 +43,13 @@ inline std::vector<Vec3d> turned(const std::vector<Vec3d>& directions, CounterRa
     return out;
 }
 
-/// The lobes that the voxelizer gives voxels which hold one short fiber of each direction.
+/// Returns the voxelizer's lobes of voxels that contain one short fiber of each direction.
 ///
 /// @param sets  one per voxel
 inline std::vector<Lobe> voxelize_directions(const std::vector<std::vector<Vec3d>>& sets) {
     CurveSet curves;
     curves.basis = Basis::Linear;
-    curves.default_radius = 0.01f; // voxels: what a fiber's side alone reaches has no weight
+    curves.default_radius = 0.01f; // voxels: voxels beside the centreline get no weight
     for (std::size_t i = 0; i < sets.size(); ++i) {
         const Vec3d middle{2.0 * static_cast<double>(i) + 0.5, 0.5, 0.5};
         for (const Vec3d& d : sets[i]) {

@@ -9,7 +9,7 @@
 #include <map>
 #include <tuple>
 
-// A geometry with all that voxels may hold, and what a result is compared by.
+// A geometry whose voxels have all kinds of data, and functions to compare results.
 
 namespace heddle::test {
 
@@ -67,7 +67,7 @@ inline Geometry hairy_swatch() {
 }
 
 using Key = std::tuple<int, int, int>;
-/// All that a voxel stores.
+/// All stored data of a voxel.
 struct Content {
     Coverage coverage;
     std::vector<Lobe> lobes;

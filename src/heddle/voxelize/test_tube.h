@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-// Solid yarns, whose volume is section x arc length wherever they do not meet themselves.
+// Solid yarns, whose volume is section x arc length if they do not intersect themselves.
 
 namespace heddle::test {
 

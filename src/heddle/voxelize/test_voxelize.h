@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-// Small geometry in, voxels out: for the tests and the tables of bench/.
+// Voxelizes small geometries for tests and the tables of bench/.
 
 namespace heddle::test {
 

@@ -11,7 +11,7 @@
 namespace heddle {
 namespace {
 
-/// The numbers of some blocks ascending, as Bins::fill wants them, and where each went.
+/// The numbers of some blocks, ascending as Bins::fill() needs them, and the new position of each.
 struct SortedBlocks {
     std::vector<std::uint32_t> block;
     std::vector<std::uint32_t> place;
@@ -28,12 +28,12 @@ struct SortedBlocks {
     }
 };
 
-/// Blocks of an order that are done with one set of lists.
+/// The blocks of an order that are processed with one set of lists.
 struct Batch {
     std::size_t begin, end;
 };
 
-/// Cuts the order so that each batch has about the same number of primitives.
+/// Divides the order into batches with about the same number of primitives.
 std::vector<Batch> cut_batches(const BlockOrder& order, const Bins& bins, std::int64_t batches) {
     const std::uint64_t least =
         bins.total_entries() / static_cast<std::uint64_t>(std::max<std::int64_t>(1, batches)) + 1;

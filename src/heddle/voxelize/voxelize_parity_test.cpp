@@ -46,7 +46,8 @@ TEST(VoxelizeParity, AMemoryLimitIsPlannedForAndGivesTheSameBits) {
     EXPECT_FALSE(roomy.spool);
     Progress silent;
     const std::map<Key, Content> whole = content_of(*voxelize(swatch(), options, roomy, silent));
-    // so much less that the result (8 bytes a voxel and more) no longer fits beside the work
+    // so much less that the result (at least 8 bytes per voxel) does not fit in addition to the
+    // work
     options.memory_bytes = roomy.peak_bytes - roomy.voxels * 8;
     const VoxelizePlan tight = plan_voxelize(swatch(), options);
     EXPECT_TRUE(tight.spool);

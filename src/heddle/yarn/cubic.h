@@ -6,8 +6,9 @@
 
 namespace heddle {
 
-/// P(t) = c[0] + c[1] t + c[2] t^2 + c[3] t^3.   slice/slice_glsl.h has the same body in GLSL,
-/// which shares no source with C++, and so have the frames of yarn_section.h and fiber_source.cpp.
+/// The cubic P(t) = c[0] + c[1] t + c[2] t^2 + c[3] t^3. slice/slice_glsl.h has the same code in
+/// GLSL, which cannot include C++, and also that of yarn_section.h and the frames of
+/// fiber_source.cpp.
 /// @tparam T  float or double
 template <typename T>
 struct PowerCubic {
@@ -23,14 +24,14 @@ struct PowerCubic {
     }
 };
 
-/// A cubic piece, t in [0, 1], scene units.
+/// A cubic piece for t in [0, 1], in scene units.
 struct Cubic : PowerCubic<double> {
-    /// The part [t0, t0 + dt] as a cubic of its own.
+    /// Returns the part [t0, t0 + dt] as a cubic of its own.
     [[nodiscard]] HEDDLE_HD Cubic part(double t0, double dt) const {
         return {{at(t0), dt * derivative(t0), (dt * dt) * (c[2] + (3.0 * t0) * c[3]),
                  (dt * dt * dt) * c[3]}};
     }
-    /// Length of its control polygon: an upper bound of the arc's.
+    /// Returns the length of its control polygon, an upper bound of the arc length.
     [[nodiscard]] HEDDLE_HD double polygon_length() const {
         // Bernstein differences: c1 / 3, (c1 + c2) / 3, (c1 + 2 c2 + 3 c3) / 3 ... in power form
         const Vec3d b1 = (1.0 / 3.0) * c[1];
@@ -38,7 +39,7 @@ struct Cubic : PowerCubic<double> {
         const Vec3d b3 = b2 + (1.0 / 3.0) * c[2] + c[3];
         return length(b1) + length(b2) + length(b3);
     }
-    /// Box of its control polygon: holds the arc.
+    /// Returns the box of its control polygon, which contains the arc.
     [[nodiscard]] HEDDLE_HD Bounds hull() const {
         Bounds box;
         const Vec3d p1 = c[0] + (1.0 / 3.0) * c[1];

@@ -22,7 +22,7 @@ double arc_length(const Cubic& c) {
     return sum;
 }
 
-/// Carries a normal from one point to the next without turn about the tangent.
+/// Transports a normal from one point to the next without rotation about the tangent.
 ///                                        [Wang 2008, "Computation of rotation minimizing frames"]
 Vec3d transport(Vec3d normal, Vec3d p0, Vec3d t0, Vec3d p1, Vec3d t1) {
     const Vec3d v1 = p1 - p0;
@@ -46,7 +46,7 @@ const T* data_or_null(const std::vector<T>& v) {
     return v.empty() ? nullptr : v.data();
 }
 
-/// The view of what the file says of a set.
+/// Returns the view of a set, without the data that are computed for yarns.
 CurveSetView points_of(const CurveSet& set) {
     CurveSetView view;
     view.points = set.points.data();

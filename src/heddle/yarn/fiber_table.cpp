@@ -12,8 +12,8 @@
 namespace heddle {
 namespace {
 
-/// Flyaways beyond this many standard deviations are not drawn (io clamps its normal deviates
-/// alike).
+/// Flyaways beyond this many standard deviations are not generated; io clamps its normal deviates
+/// likewise.
 constexpr float kMaxDeviate = 2.5f;
 
 void push_fiber(
@@ -29,7 +29,7 @@ void push_fiber(
     table.color.push_back(color);
 }
 
-/// A radius in [0, r_max] with density p(R) R: p is per area [Zhao 2016, eq. 2].
+/// Returns a radius in [0, r_max] with density p(R) R, as p is per area [Zhao 2016, eq. 2].
 float draw_radius(const YarnType& type, CounterRandom& random) {
     constexpr float kE = 2.7182818f;
     for (int attempt = 0; attempt < 1000; ++attempt) {
@@ -54,14 +54,14 @@ void place_plies(FiberTable& table, const YarnType& type, CounterRandom& random)
             const float angle = random.uniform();
             fibers.push_back({angle, r, random.uniform()});
         }
-        // neighbours in the table pass the same voxels: what works on eight at once gains
+        // neighbours in the table cross the same voxels, which helps code with eight lanes
         std::sort(fibers.begin(), fibers.end());
         for (const auto& [angle, r, phase] : fibers) push_fiber(table, r, angle, phase, 0xffffff);
         table.first_of_ply.push_back(static_cast<std::uint32_t>(table.radius.size()));
     }
 }
 
-/// Linear 8-bit RGB of a slice's texel; alpha in [0, 1].
+/// The linear 8-bit RGB of a slice's texel, and its alpha in [0, 1].
 struct SliceTexel {
     std::uint32_t color;
     float alpha;
@@ -77,8 +77,8 @@ SliceTexel slice_texel(const Texture& image, std::size_t index) {
     return {pack_color(linear), static_cast<float>(t[3]) / 255.0f};
 }
 
-/// Fibers spread over the image in proportion to alpha: fiber i takes the texel where the running
-/// sum of alpha reaches (i + u) / n of the whole, and a random point in it.
+/// Distributes fibers over the image in proportion to alpha: fiber i is at a random point of the
+/// texel where the running sum of alpha reaches (i + u) / n of the total.
 void place_slice(FiberTable& table, const YarnType& type, CounterRandom& random) {
     const Texture& image = type.slice;
     const std::size_t texels =

@@ -13,51 +13,52 @@
 
 namespace heddle {
 
-/// A piece of a span, no longer than FiberView::piece_length: what is binned to blocks.
+/// A piece of a span, no longer than FiberView::piece_length. Pieces are assigned to blocks.
 struct FiberPiece {
     std::uint32_t set = 0;  ///< index into Geometry::curves
-    std::uint32_t part = 0; ///< of `parts`
+    std::uint32_t part = 0; ///< number of this part of the span, below `parts`
     std::uint32_t parts = 1;
     std::uint64_t curve = 0;
-    std::uint64_t span = 0; ///< of the curve
+    std::uint64_t span = 0; ///< number of the span in its curve
     Cubic cubic;            ///< the piece itself
 };
 
-/// Where a yarn's twist stands: what a span needs beside its cubic. Lengths in model units.
+/// A yarn's twist and frames along a piece, which its fibers need beside the cubic. Lengths are in
+/// model units.
 struct YarnCourse {
     double start = 0.0;  ///< yarn length at the piece's start
-    double length = 0.0; ///< of the piece
-    double total = 0.0;  ///< of the whole yarn
+    double length = 0.0; ///< length of the piece
+    double total = 0.0;  ///< length of the whole yarn
     bool closed = false;
     double turns_per_length[3]{}; ///< plies, fibers, migration; whole turns over a closed yarn
-    double closing_turns = 0.0;   ///< turn of the frame that closes a closed yarn, over its length
-    Vec3f normal0, normal1;       ///< cross-section frame at the piece's ends
-    float scale0 = 1.0f, scale1 = 1.0f; ///< of course()'s unit per model unit, at the ends
+    double closing_turns = 0.0;   ///< extra turns over a closed yarn that make its frame close
+    Vec3f normal0, normal1;       ///< normals of the yarn frame at the piece's ends
+    float scale0 = 1.0f, scale1 = 1.0f; ///< units of course() per model unit, at the ends
 
-    /// By how much the plies are turned at yarn length `s`, with what closes a closed yarn's frame.
+    /// Returns the turns of the plies at yarn length `s`, including the closing turns.
     [[nodiscard]] HEDDLE_HD double ply_turns(double s) const {
         const double closing = total > 0.0 ? closing_turns * s / total : 0.0;
         return turns_per_length[0] * s + closing;
     }
 };
 
-/// A CurveSet as pointers and numbers, with what was computed of its yarns.
+/// A CurveSet as pointers and numbers, with the data that were computed for its yarns.
 struct CurveSetView {
     const Vec3f* points = nullptr;
     const std::uint64_t* first = nullptr; ///< curves + 1
-    const std::uint8_t* closed = nullptr; ///< per curve; null: none is
+    const std::uint8_t* closed = nullptr; ///< per curve; null: no curve is closed
     const float* radius = nullptr;        ///< per point; null: `default_radius`
     const std::uint32_t* color = nullptr; ///< per point; null: white
-    const std::uint64_t* spans = nullptr; ///< curves + 1: first span of each curve, of the set's
-    const double* length = nullptr; ///< at each knot of each curve, scene units: spans + 1 a curve;
-                                    ///< null: no yarn of fibers
+    const std::uint64_t* spans = nullptr; ///< curves + 1: first span of each curve in the set
+    const double* length = nullptr; ///< arc length at each knot, spans + 1 per curve, scene units;
+                                    ///< null: not a yarn of fibers
     const Vec3f* normal = nullptr;  ///< at each knot
-    const float* closing = nullptr; ///< per curve, turns
+    const float* closing = nullptr; ///< closing turns per curve
     std::uint64_t curve_count = 0;
     float default_radius = 0.0f;
     std::uint32_t material = 0;
     Basis basis = Basis::CatmullRom;
-    bool has_yarn = false; ///< `yarn` holds; else each curve is one fiber
+    bool has_yarn = false; ///< `yarn` is valid; else each curve is one fiber
     YarnView yarn;
 
     [[nodiscard]] HEDDLE_HD bool is_closed(std::uint64_t curve) const {
@@ -66,17 +67,17 @@ struct CurveSetView {
     [[nodiscard]] HEDDLE_HD std::uint64_t span_count(std::uint64_t curve) const {
         return spans[curve + 1] - spans[curve];
     }
-    /// Control point, of all, at a curve's knot `k`, for radius and colour.
+    /// Returns the number, in the set, of the control point for radius and colour at knot `k`.
     [[nodiscard]] HEDDLE_HD std::uint64_t knot_point(std::uint64_t curve, std::uint64_t k) const {
         const std::uint64_t begin = first[curve];
         if (is_closed(curve)) return begin + k % (first[curve + 1] - begin);
         return begin + k + (basis == Basis::Linear ? 0u : 1u);
     }
-    /// Colour of a piece's span, where the set has colours.
+    /// Returns the colour of a piece's span. The set must have colours.
     [[nodiscard]] HEDDLE_HD std::uint32_t color_of(const FiberPiece& piece) const {
         return color[knot_point(piece.curve, piece.span)];
     }
-    /// Yarn radius at the piece's start or end, scene units.
+    /// Returns the radius of the curve at the piece's start or end, in scene units.
     [[nodiscard]] HEDDLE_HD double radius_at(const FiberPiece& piece, bool end) const {
         if (has_yarn && yarn.radius > 0.0f) return static_cast<double>(yarn.radius);
         const auto knot = [&](std::uint64_t k) {
@@ -86,7 +87,8 @@ struct CurveSetView {
         const double t = (piece.part + (end ? 1.0 : 0.0)) / piece.parts;
         return (1.0 - t) * knot(piece.span) + t * knot(piece.span + 1);
     }
-    /// Distance from the piece's centreline within which it has matter; scene units.
+    /// Returns the largest distance of the fibers' surfaces from the piece's centreline, scene
+    /// units.
     [[nodiscard]] HEDDLE_HD double reach(const FiberPiece& piece) const {
         const double most = std::max(radius_at(piece, false), radius_at(piece, true));
         return has_yarn ? most * static_cast<double>(yarn.reach / yarn.model_radius) : most;
@@ -94,7 +96,7 @@ struct CurveSetView {
 };
 static_assert(sizeof(CurveSetView) == 208, "the same on host and device");
 
-/// Span `k` of a curve.
+/// Returns span `k` of a curve.
 [[nodiscard]] HEDDLE_HD inline Cubic
 span_cubic(const CurveSetView& set, std::uint64_t curve, std::uint64_t k) {
     const Vec3f* points = set.points + set.first[curve];
@@ -117,7 +119,7 @@ span_cubic(const CurveSetView& set, std::uint64_t curve, std::uint64_t k) {
              (1.0 / 6.0) * (p3 - p0) + 0.5 * (p1 - p2)}};
 }
 
-/// Part `part` of a whole span.
+/// Returns part `part` of a whole span.
 [[nodiscard]] HEDDLE_HD inline FiberPiece part_of(const FiberPiece& span, std::uint32_t part) {
     FiberPiece piece = span;
     piece.part = part;
@@ -128,16 +130,17 @@ span_cubic(const CurveSetView& set, std::uint64_t curve, std::uint64_t k) {
     return piece;
 }
 
-/// All curves of a geometry as numbered spans: what FiberSource knows, as pointers and numbers.
+/// All curves of a geometry as numbered spans: the data of a FiberSource as pointers and numbers.
 struct FiberView {
     const CurveSetView* sets = nullptr;
-    const std::uint64_t* first_span = nullptr; ///< per set, and the end
+    const std::uint64_t* first_span = nullptr; ///< of each set, and the end
     std::uint64_t set_count = 0;
     std::uint64_t span_count = 0;
     std::uint64_t seed = 0;
-    double piece_length = 0.0; ///< scene units; no piece is longer, up to kMaxParts of a span
+    double piece_length = 0.0; ///< scene units; largest length of a piece, up to kMaxParts per span
 
-    /// Span `span` (over all sets) as one piece, with the number of parts that it is cut into.
+    /// Returns span `span` (over all sets) as one piece, with the number of parts to divide it
+    /// into.
     [[nodiscard]] HEDDLE_HD FiberPiece whole_span(std::uint64_t span) const {
         const std::uint64_t s = range_of(first_span, set_count, span);
         const CurveSetView& set = sets[s];
@@ -158,14 +161,15 @@ struct FiberView {
     [[nodiscard]] HEDDLE_HD double reach(const FiberPiece& piece) const {
         return sets[piece.set].reach(piece);
     }
-    /// @param unit  that the scales are given in, scene units
+    /// Returns the twist and the frames of the yarn along the piece.
+    /// @param unit  unit of YarnCourse::scale0 and scale1, scene units
     [[nodiscard]] HEDDLE_HD YarnCourse course(const FiberPiece& piece, double unit) const;
 };
 static_assert(sizeof(FiberView) == 48, "the same on host and device");
 
 namespace fiber_detail {
 
-/// Turns per length of a yarn's plies, fibers and migration, along its own length.
+/// Sets the turns per length of a yarn's plies, fibers and migration.
 HEDDLE_HD inline void set_turns(const YarnView& yarn, YarnCourse& course) {
     double* turns = course.turns_per_length;
     if (yarn.model == YarnModel::Slice) {
@@ -193,8 +197,8 @@ HEDDLE_HD inline YarnCourse FiberView::course(const FiberPiece& piece, double un
     course.scale1 = static_cast<float>(r1 / unit / model);
     if (set.length == nullptr) return course;
 
-    const std::uint64_t knot = set.spans[piece.curve] + piece.curve; // a knot more than spans
-    // twist and hairs go by the radius at the yarn's head, the section by its own
+    const std::uint64_t knot = set.spans[piece.curve] + piece.curve; // one knot more than spans
+    // twist and hairs are scaled by the radius at the yarn's start, the section by its local radius
     FiberPiece head = piece;
     head.span = 0;
     head.part = 0;

@@ -10,7 +10,8 @@
 
 namespace heddle {
 
-/// A deviate of standard deviation 1 from one hash: the sum of four uniforms, cut at 2.5.
+/// Returns a random deviate of standard deviation 1 from a hash: the sum of four uniform numbers,
+/// clamped to +-2.5.
 [[nodiscard]] HEDDLE_HD inline double deviate(std::uint64_t hash) {
     double sum = 0.0;
     for (int i = 0; i < 4; ++i) sum += static_cast<double>((hash >> (16 * i)) & 0xffff) / 65536.0;
@@ -21,11 +22,12 @@ namespace heddle {
     return static_cast<double>(of.mean) + static_cast<double>(of.sd) * deviate(hash);
 }
 
-/// Loop flyaways: where a fiber's migration is farthest out, it may be pulled out to a loop.
+/// Loop flyaways: a fiber may be pulled out to a loop where its migration is farthest from the
+/// axis.
 ///                                                [Zhao 2016, sec. 5.2]
 class LoopModel {
 public:
-    /// @param yarn  a YarnType, or what crosses of one
+    /// @param yarn  a YarnType or a YarnView
     template <typename Yarn>
     HEDDLE_HD explicit LoopModel(const Yarn& yarn)
         : reach_(yarn.loop_r1),
@@ -39,16 +41,18 @@ public:
         chance_ = static_cast<double>(yarn.loop_density) * period / yarn.fibers_per_ply;
     }
 
-    /// @param seed  the run's, plus the number of the set of curves
+    /// Returns the id of a fiber for ratio().
+    /// @param seed  seed of the run plus the number of the set of curves
     [[nodiscard]] HEDDLE_HD static std::uint64_t
     id(std::uint64_t seed, std::uint64_t curve, std::uint64_t fiber) {
         return hash64(seed + 0x6c6f6f70u, curve, fiber);
     }
 
-    /// How far out the loop of a period goes, times the fiber's own distance; 1: no loop.
-    /// @param id      of the fiber
-    /// @param period  number of the migration's period, from half a turn before its outermost point
-    /// @param radius  the fiber's, of the unit section
+    /// Returns the largest distance of a period's loop over the fiber's own distance; 1: no loop.
+    /// @param id      id of the fiber
+    /// @param period  number of the migration period, which starts half a turn before its outermost
+    ///                point
+    /// @param radius  FiberTable::radius of the fiber
     [[nodiscard]] HEDDLE_HD double ratio(std::uint64_t id, double period, float radius) const {
         const std::uint64_t draw =
             hash64(id, static_cast<std::uint64_t>(static_cast<long long>(period)));
@@ -58,16 +62,16 @@ public:
         return ratio > 1.05 ? ratio : 1.0; // no loop where the fiber already runs as far out
     }
 
-    /// What multiplies a fiber's distance from its ply's axis: 1, or in a loop's period
-    /// 1 + (ratio - 1) cos(pi w), w the distance from the outermost point in periods.
-    /// @param ratio  of the phase's period
-    /// @param phase  migration phase, turns; whole numbers are outermost points
+    /// Returns the factor of a fiber's distance from its ply's axis: 1, or in a period with a loop
+    /// 1 + (ratio - 1) cos(pi w), where w is the distance from the outermost point in periods.
+    /// @param ratio  ratio() of the period
+    /// @param phase  migration phase in turns; whole numbers are the outermost points
     [[nodiscard]] HEDDLE_HD static float factor(double ratio, double phase) {
         const double w = phase - period_of(phase);
         const double bump = 1.0 - 4.0 * w * w; // cos(pi w) to 6 %, and 0 at the period's ends
         return static_cast<float>(1.0 + (ratio - 1.0) * bump);
     }
-    /// Migration phase of a fiber at yarn length s.
+    /// Returns the migration phase of a fiber at yarn length s, in turns.
     /// @param turns  its phase at the yarn's start
     [[nodiscard]] HEDDLE_HD double phase_at(double s, float turns) const {
         return s * frequency_ + static_cast<double>(turns);
@@ -81,11 +85,11 @@ public:
 private:
     MeanSd reach_;
     float section_ = 0.0f;
-    double frequency_ = 0.0; ///< of the migration, turns per model unit
+    double frequency_ = 0.0; ///< migration turns per model unit
     double chance_ = 0.0;
 };
 
-/// The period of a fiber's migration that was last looked at, and how far out its loop goes.
+/// Caches the ratio of the migration period that was asked for last.
 struct LoopMemo {
     double period = 1e300;
     double value = 1.0;
@@ -100,14 +104,14 @@ struct LoopMemo {
     }
 };
 
-/// A hair flyaway in its ply's frame: at parameter q in [t0, t1] it lies at yarn length z0 + ze q,
-/// distance r0 + re q from the ply's axis, angle p0 + pe q. Model units, radians.
+/// A hair flyaway in its ply's frame. At parameter q in [t0, t1] it is at yarn length z0 + ze q, at
+/// distance r0 + re q from the ply's axis and at angle p0 + pe q, in model units and radians.
 struct FlyawayHair {
     double z0, ze, r0, re, p0, pe;
     double t0, t1;
 };
 
-/// What a yarn type says of its hair flyaways.
+/// The parameters of a yarn type's hair flyaways.
 struct HairShape {
     float density = 0.0f; ///< per ply and model unit
     float yarn_radius = 1.0f;
@@ -123,17 +127,17 @@ struct HairShape {
           pe(yarn.hair_pe) {}
 };
 
-/// A ply, as its hairs are drawn by it.
+/// The identity of a ply, which its random hairs depend on.
 struct HairPly {
-    std::uint64_t seed; ///< the run's, plus the number of the set of curves
+    std::uint64_t seed; ///< seed of the run plus the number of the set of curves
     std::uint64_t curve, ply;
 };
 
-/// Hair flyaways of one yarn: one a cell of its length 1 / density, drawn by the cell's number.
+/// The hair flyaways of one yarn: one per cell of length 1 / density, random by the cell's number.
 ///                                                                       [Zhao 2016, 5.2]
 class HairModel {
 public:
-    /// @param total  yarn length, model units
+    /// @param total  length of the yarn, model units
     HEDDLE_HD HairModel(const HairShape& shape, double total, bool closed)
         : shape_(shape), total_(total), closed_(closed) {
         const auto cells = static_cast<std::int64_t>(total * static_cast<double>(shape.density));
@@ -144,7 +148,8 @@ public:
                                   2.5 * static_cast<double>(shape.ze.sd));
     }
 
-    /// Cells whose hairs may lie over some yarn length; for an open yarn some do not exist.
+    /// A range of cells whose hairs may touch a range of yarn length. At the ends of an open yarn
+    /// some of them do not exist.
     struct Cells {
         std::int64_t first = 0, last = -1;
         [[nodiscard]] HEDDLE_HD std::int64_t count() const { return last - first + 1; }
@@ -155,8 +160,8 @@ public:
                 static_cast<std::int64_t>(std::floor((s1 + reach_) / cell_))};
     }
 
-    /// The part of a cell's hair that lies over yarn length [s0, s1).
-    /// @return  false: none
+    /// Sets `hair` to the part of a cell's hair within yarn length [s0, s1).
+    /// @return  false: there is none
     [[nodiscard]] HEDDLE_HD bool
     hair_of(std::int64_t cell, const HairPly& ply, double s0, double s1, FlyawayHair& hair) const {
         if (!closed_ && (cell < 0 || cell >= cells_)) return false;
@@ -165,7 +170,7 @@ public:
         CounterRandom random{.seed = hash64(ply.seed + 0x68616972u, ply.curve, ply.ply), .id = own};
         hair = place(random, own);
         hair.z0 += static_cast<double>(turn) * total_;
-        // most hairs near a piece do not reach it: the rest of the draw is not needed
+        // most hairs near a piece do not reach it and need no more random numbers
         const double end = hair.z0 + hair.ze;
         const double root = hair.z0 - kRoot * hair.ze;
         const double least = end < root ? end : root;
@@ -176,7 +181,7 @@ public:
         return hair.t0 < hair.t1;
     }
 
-    /// Calls visit(hair) for each of a ply's hairs over yarn length [s0, s1), as hair_of().
+    /// Calls visit(hair) for each part of a ply's hairs within yarn length [s0, s1); see hair_of().
     template <typename Visit>
     void for_each(const HairPly& ply, double s0, double s1, const Visit& visit) const {
         const Cells all = cells(s0, s1);
@@ -193,7 +198,7 @@ private:
         FlyawayHair hair{};
         hair.z0 = (static_cast<double>(cell) + static_cast<double>(random.uniform())) * cell_;
         hair.ze = deviate(shape_.ze, random.next());
-        // a hair straight out still passes through some yarn length: it has one place on the yarn
+        // a hair perpendicular to the yarn still needs a nonzero extent along the yarn
         const double least = 1e-3 * static_cast<double>(shape_.yarn_radius);
         if (std::fabs(hair.ze) < least) hair.ze = hair.ze < 0.0 ? -least : least;
         return hair;
@@ -211,7 +216,7 @@ private:
         hair.t1 = 1.0;
     }
 
-    /// Cuts a hair's parameters to yarn length [s0, s1).
+    /// Clips a hair's parameter range to yarn length [s0, s1).
     HEDDLE_HD static void cut(double s0, double s1, FlyawayHair& hair) {
         const double qa = (s0 - hair.z0) / hair.ze;
         const double qb = (s1 - hair.z0) / hair.ze;
@@ -229,7 +234,7 @@ private:
     double reach_ = 0.0;
 };
 
-/// Chords of a hair flyaway's part, of about 4 units each.
+/// Returns the number of chords of about 4 units for a part of a hair flyaway.
 /// @param scale  units per model unit at the piece's start
 [[nodiscard]] HEDDLE_HD inline int hair_chord_count(const FlyawayHair& hair, double scale) {
     const double size = scale * (std::fabs(hair.ze) + std::fabs(hair.re) +

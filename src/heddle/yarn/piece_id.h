@@ -6,12 +6,12 @@
 
 namespace heddle {
 
-/// A part of a span of a fiber's or yarn's centreline: the span's number, over all sets of a
-/// geometry, above the bits of the part.
+/// The number of a piece: the number of its span, over all sets of a geometry, in the upper bits
+/// and the number of the part in the lower kPartBits.
 using PieceId = std::uint64_t;
 
 constexpr int kPartBits = 16;
-/// Most parts of a span.
+/// Largest number of parts of a span.
 constexpr std::uint64_t kMaxParts = std::uint64_t{1} << kPartBits;
 
 [[nodiscard]] HEDDLE_HD constexpr PieceId pack_piece(std::uint64_t span, std::uint32_t part) {

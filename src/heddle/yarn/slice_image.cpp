@@ -13,14 +13,14 @@
 namespace heddle {
 namespace {
 
-constexpr int kSubtexels = 8; ///< points along a texel's side that alpha counts
+constexpr int kSubtexels = 8; ///< sample points along a texel's side for alpha
 constexpr int kDirections = 64;
 
 struct Disc {
     float x, y;
 };
 
-/// Where the fibers of a procedural yarn lie in its section at length 0, model units.
+/// The positions of a procedural yarn's fibers in its section at length 0, in model units.
 std::vector<Disc> section_of(const YarnType& yarn, const FiberTable& table) {
     std::vector<Disc> discs;
     const float mean = yarn.migration ? 0.5f * (yarn.migration_max + yarn.migration_min) : 1.0f;
@@ -38,14 +38,14 @@ std::vector<Disc> section_of(const YarnType& yarn, const FiberTable& table) {
     return discs;
 }
 
-/// Subtexels of the square [-1, 1]^2, each 1 where a disc holds its centre.
+/// The subtexels of the square [-1, 1]^2, each 1 if a disc contains its centre.
 class Raster {
 public:
     explicit Raster(std::int32_t size)
         : side_(size * kSubtexels),
           bits_(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_)) {}
 
-    /// @return  subtexels inside the disc, inside the square or not
+    /// @return  number of subtexels inside the disc, in or outside the square
     std::int64_t fill(float x, float y, float radius) {
         const float scale = 0.5f * static_cast<float>(side_);
         const float cx = (x + 1.0f) * scale - 0.5f;
@@ -82,7 +82,7 @@ private:
         bits_[row * static_cast<std::size_t>(side_) + col] = 1;
     }
     std::int32_t side_;
-    std::int64_t set_ = 0; ///< one for each disc that has it
+    std::int64_t set_ = 0; ///< sum over discs of the subtexels inside
     std::vector<std::uint8_t> bits_;
 };
 
@@ -113,7 +113,7 @@ float alpha_at(const Texture& image, float col, float row) {
     return static_cast<float>(image.texels[4 * (r * width + c) + 3]) / 255.0f;
 }
 
-/// Says what the image does not have.
+/// Notes the features that the image does not have.
 void note_losses(SliceImage& out, const YarnType& yarn) {
     std::string lost;
     const auto lose = [&](bool had, const char* what) {
@@ -154,7 +154,7 @@ SliceImage make_slice(const YarnType& yarn, const SliceOptions& options) {
     SliceImage out;
     out.yarn = yarn;
     out.yarn.model = YarnModel::Slice;
-    out.yarn.flyaways = false; // what the notes say is lost
+    out.yarn.flyaways = false; // as the notes say
     out.yarn.migration = false;
     out.yarn.slice = blank(options.size, options.size, 4);
     out.yarn.slice.name = yarn.name + ".png";
@@ -198,7 +198,7 @@ Texture bake_occlusion(const YarnType& yarn) {
     const float texel = 2.0f * yarn.model_radius / static_cast<float>(image.width);
     const float rise = static_cast<float>(image.height) / static_cast<float>(image.width);
     const float extinction = texel * 0.63661977f / yarn.fiber_radius;
-    const float dark = 8.0f / extinction; // e^-8: no more to be seen of 255
+    const float dark = 8.0f / extinction; // e^-8 is less than 1 / 255
     parallel_chunks(out.texels.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const float col = static_cast<float>(i % width) + 0.5f;
@@ -221,7 +221,7 @@ Texture bake_occlusion(const YarnType& yarn) {
 
 namespace {
 
-/// Texels (2 col, 2 row) and the three after it; past the edge the last ones again.
+/// Texel (2 col, 2 row) and the three after it; texels past the edge repeat the last.
 struct Quad {
     std::array<float, 4> alpha; ///< in [0, 1]; by row, then column
     std::array<std::array<float, 3>, 4> color;
@@ -247,7 +247,7 @@ struct Quad {
         float sum = 0.0f;
         float weight = 0.0f;
         for (std::size_t k = 0; k < 4; ++k) {
-            const float w = alpha[k] + 1e-4f; // so that clear texels keep a colour
+            const float w = alpha[k] + 1e-4f; // so that transparent texels have a colour
             sum += w * color[k][channel];
             weight += w;
         }

@@ -72,7 +72,7 @@ TEST(SliceImage, TheSliceHasTheYarnsTwistSizeAndFibers) {
     EXPECT_EQ(made.yarn.slice_fibers, 120);
     ASSERT_EQ(made.notes.size(), 1u);
     EXPECT_NE(made.notes[0].find("turns of fibers about their ply"), std::string::npos);
-    // place_fibers chooses a radius so that its fibers fill what alpha says
+    // place_fibers() chooses the radius so that the sections of its fibers sum to alpha
     const FiberTable table = place_fibers(made.yarn, 0, 0);
     const double filled = 120 * 3.14159265 * std::pow(static_cast<double>(table.fiber_radius), 2);
     EXPECT_NEAR(filled, mean_alpha(made.yarn.slice) * 16.0, 1e-3);

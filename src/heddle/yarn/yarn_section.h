@@ -7,22 +7,22 @@
 
 namespace heddle {
 
-/// A unit vector at right angles to the unit vector `t`, within single precision.
+/// Returns a unit vector perpendicular to the unit vector `t`, within single precision.
 [[nodiscard]] HEDDLE_HD inline Vec3d any_perpendicular(Vec3d t) {
     return to_double(any_perpendicular(to_float(t)));
 }
 
-/// A yarn's cross-section at one place of a piece: one body for the voxelizer, in units and single
-/// precision, and for traced fibers, in scene units and double precision.
+/// A yarn's cross-section at one point of a piece. The voxelizer uses it in units and single
+/// precision, traced fibers use it in scene units and double precision.
 /// @tparam T  float or double
 template <typename T>
 struct YarnSection {
-    Vec3<T> center, normal, binormal; ///< the last two unit, across the yarn
+    Vec3<T> center, normal, binormal; ///< the last two are unit vectors across the yarn
     T scale;                          ///< units per model unit
     double s;                         ///< yarn length since its start, model units
 
     /// @param cubic  the piece's centreline
-    /// @param t      in [0, 1] of the piece
+    /// @param t      parameter of the piece, in [0, 1]
     HEDDLE_HD YarnSection(const PowerCubic<T>& cubic, const YarnCourse& course, T t) {
         const Vec3<T> tangent = normalize(cubic.derivative(t));
         const Vec3f &n0 = course.normal0, &n1 = course.normal1;

@@ -6,8 +6,8 @@
 
 namespace heddle {
 
-/// The numbers of a YarnType that its fibers' paths need, under their names there: what crosses to
-/// the device. Model units.
+/// The numbers of a YarnType that the paths of its fibers depend on, with the same names, in model
+/// units. It is uploaded to the device.
 struct YarnView {
     YarnModel model = YarnModel::Solid;
     bool ply_clockwise = false;
@@ -36,6 +36,7 @@ struct YarnView {
 };
 static_assert(sizeof(YarnView) == 116, "the same on host and device");
 
+/// Returns the view of a yarn type.
 [[nodiscard]] YarnView yarn_view(const YarnType& yarn);
 
 } // namespace heddle

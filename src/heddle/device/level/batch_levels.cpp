@@ -7,7 +7,7 @@
 namespace heddle {
 namespace {
 
-/// Voxels and lobes that a level has at most.
+/// The largest number of voxels and lobes of a level.
 struct LevelCounts {
     std::int64_t voxels = 0;
     std::int64_t lobes = 0;
@@ -20,12 +20,12 @@ std::int64_t array_bytes(int level, const LevelCounts& count, bool maps) {
            count.lobes * static_cast<std::int64_t>(per_lobe);
 }
 
-/// Beside the level's own arrays while it is stored.
+/// Bytes in addition to a level's own arrays while it is stored.
 std::int64_t
 store_bytes(std::int64_t blocks, int level, const LevelCounts& count, const FitOptions& options) {
     const VoxelFields& fields = options.fields;
     const auto leaves = blocks * static_cast<std::int64_t>(LeafCells{level}.per_block());
-    const std::int64_t order = count.voxels * 8 + 4; // for as long as the rest takes
+    const std::int64_t order = count.voxels * 8 + 4; // in use all the time
     const std::int64_t leaf = leaves * 64 + (leaves + 1) * 8 + count.voxels;
     const std::int64_t face = count.voxels * (8 + (fields.footprints != 0 ? 24 : 0));
     const std::int64_t lobe =
@@ -36,7 +36,7 @@ store_bytes(std::int64_t blocks, int level, const LevelCounts& count, const FitO
     return order + std::max({leaf, face, lobe, sums});
 }
 
-/// Beside the arrays of both levels while one is built.
+/// Bytes in addition to the arrays of both levels while one is built from the other.
 std::int64_t join_bytes(const LevelCounts& below, const LevelCounts& here) {
     return below.voxels * 5 + here.voxels * 6 + 8;
 }

@@ -43,7 +43,7 @@ Finest voxelized(const Geometry& geometry, VoxelizeOptions options) {
     return out;
 }
 
-/// One voxel of a block and where its data lie.
+/// One voxel of a block, and the positions of its data.
 struct KeyedVoxel {
     std::uint64_t key;
     std::size_t voxel;
@@ -60,7 +60,7 @@ std::vector<KeyedVoxel> places_of(const VoxelBlock& block, Vec3i index) {
     return out;
 }
 
-/// Level 0 of blocks [begin, end), as a voxelizer leaves it.
+/// Level 0 of blocks [begin, end), as from a voxelizer.
 LevelArrays
 arrays_of(executor::HostExecutor& exec, const Finest& finest, std::size_t begin, std::size_t end) {
     const int n = finest.source->info().lattice.subvoxels;
@@ -124,8 +124,8 @@ VoxelLevels built_by_visits(const Finest& finest, const LodOptions& lod) {
     return builder.finish(std::make_unique<LevelSubset>(*finest.source));
 }
 
-/// Builds the levels batch by batch, and expects that level 0 comes back as it was, and that no
-/// batch took more memory than predicted.
+/// Builds the levels batch by batch. Expects that level 0 is returned unchanged and that no batch
+/// needs more memory than predicted.
 VoxelLevels built_by_batches(const Finest& finest, const LodOptions& lod, std::size_t batches) {
     LevelBuilder builder(lod);
     builder.begin(finest.source->info(), finest.index, {});

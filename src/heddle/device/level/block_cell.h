@@ -8,10 +8,10 @@
 
 namespace heddle {
 
-/// Voxels of a block.
+/// Number of voxels of a block.
 constexpr std::uint32_t kVoxelsPerBlock = kBlockVoxels * kBlockVoxels * kBlockVoxels;
 
-/// Bits b4 .. b0 of a coordinate as b4 00 b3 00 .. b0.
+/// Returns bits b4 .. b0 of a coordinate as b4 00 b3 00 .. b0.
 [[nodiscard]] HEDDLE_HD constexpr std::uint32_t spread_bits(std::uint32_t b) {
     b = (b | b << 8) & 0x100fu;
     b = (b | b << 4) & 0x10c3u;
@@ -25,8 +25,8 @@ constexpr std::uint32_t kVoxelsPerBlock = kBlockVoxels * kBlockVoxels * kBlockVo
     return (b | b >> 8) & 0x1fu;
 }
 
-/// Place of voxel (x, y, z) of a block in Z-order, x first: a parent's children follow each other,
-/// child number x << 2 | y << 1 | z.
+/// Returns the position of voxel (x, y, z) of a block in Z-order, bits of x first. The children of
+/// a voxel are consecutive, in the order of child numbers x << 2 | y << 1 | z.
 [[nodiscard]] HEDDLE_HD constexpr std::uint32_t z_order_from_index(Vec3i at) {
     return spread_bits(static_cast<std::uint32_t>(at.x)) << 2 |
            spread_bits(static_cast<std::uint32_t>(at.y)) << 1 |

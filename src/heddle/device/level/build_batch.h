@@ -6,8 +6,7 @@
 
 #include <utility>
 
-// The body of build_batch_levels(), for the files that make it for an executor: build_batch.cpp,
-// .cu.
+// The body of build_batch_levels(), which build_batch.cpp and build_batch.cu instantiate.
 
 namespace heddle {
 

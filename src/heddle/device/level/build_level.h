@@ -7,8 +7,8 @@
 
 namespace heddle {
 
-/// Builds a level of a batch from the one below it by the method `moments`, as LevelBuilder does.
-/// @param below      is used up: its lobes are merged where they lie
+/// Builds a level of a batch from the level below by the method `moments`, as LevelBuilder does.
+/// @param below      is consumed: its lobes are merged in place
 /// @param max_lobes  K
 /// @throws Error     OutOfMemory, Device
 template <typename Exec>

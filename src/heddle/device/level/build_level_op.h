@@ -9,7 +9,7 @@
 
 namespace heddle {
 
-/// Marks the first child of each parent: voxels of one key >> 3 follow each other.
+/// Marks the first child of each parent. Voxels with the same key >> 3 are consecutive.
 struct MarkFirstChildOp {
     const std::uint64_t* key;
     std::uint8_t* first; ///< per voxel: 1 or 0
@@ -19,11 +19,11 @@ struct MarkFirstChildOp {
     }
 };
 
-/// What is known of each parent before its children are joined.
+/// The data of each parent before its children are joined.
 struct Parents {
     std::uint64_t* key;
-    std::uint32_t* first_child; ///< number below, and the end
-    std::uint8_t* child_mask;   ///< bit per child x << 2 | y << 1 | z that is there
+    std::uint32_t* first_child; ///< number in the level below, and the end
+    std::uint8_t* child_mask;   ///< bit x << 2 | y << 1 | z per existing child
 };
 
 /// Lists the parents; item `voxels` writes the end.
@@ -52,19 +52,18 @@ struct ListParentsOp {
     }
 };
 
-/// Merges the lobes of each parent's children where they lie: they follow each other, child by
-/// child.
-/// Those left stand at the front of them.
+/// Merges the lobes of each parent's children in place. They are consecutive, child by child; the
+/// remaining lobes are moved to the front.
 struct MergeChildrenOp {
     const std::uint32_t* first_child;
     const std::uint32_t* first_lobe; ///< per child
     const std::uint32_t* child_hits;
     DirectionSums* lobes;
-    MapSums* maps; ///< null without
+    MapSums* maps; ///< null: no map sums
     int max_lobes;
     std::uint32_t* hits;
     std::uint32_t* order;
-    std::uint8_t* count; ///< lobes left
+    std::uint8_t* count; ///< number of remaining lobes
 
     HEDDLE_HD void operator()(std::size_t p) const {
         const std::uint32_t begin = first_child[p];
@@ -80,13 +79,13 @@ struct MergeChildrenOp {
     }
 };
 
-/// Moves the lobes that are left to the parents' arrays.
+/// Copies the remaining lobes to the parents' arrays.
 struct TakeLobesOp {
     const std::uint32_t* first_child; ///< null: a parent is its only child
     const std::uint32_t* lobe_below;  ///< per child: its first lobe
     const std::uint32_t* first_lobe;  ///< per parent, and the end
     const DirectionSums* from;
-    const MapSums* maps_from; ///< null without
+    const MapSums* maps_from; ///< null: no map sums
     DirectionSums* to;
     MapSums* maps_to;
 
@@ -100,14 +99,14 @@ struct TakeLobesOp {
     }
 };
 
-/// Joins columns, an item a word of a parent: along the axis two children's are OR-ed, across it
-/// each fills a quarter.
+/// Joins columns, one item per word of a parent: along the axis, the words of two children are
+/// OR-ed; across it, each pair fills a quarter.
 struct JoinColumnsOp {
     const std::uint32_t* first_child;
     const std::uint8_t* child_mask;
-    const std::uint64_t* below; ///< 3 x 4^(level - 1) words a voxel
-    int level;                  ///< of the parents
-    std::uint64_t* columns;     ///< 3 x 4^level words a voxel
+    const std::uint64_t* below; ///< 3 x 4^(level - 1) words per voxel
+    int level;                  ///< level of the parents
+    std::uint64_t* columns;     ///< 3 x 4^level words per voxel
 
     HEDDLE_HD void operator()(std::size_t i) const {
         const int shift = 2 * (level - 1); // words of a child along an axis
@@ -129,8 +128,8 @@ struct JoinColumnsOp {
         columns[i] = joined;
     }
 
-    /// The child that fills a quarter of the columns along `axis`: quarter() the other way round.
-    /// @param half  of the two that do: the nearer or the farther one
+    /// Returns a child that fills a quarter of the columns along `axis`: the inverse of quarter().
+    /// @param half  which of the two such children: 0 or 1 along the axis
     [[nodiscard]] HEDDLE_HD static constexpr int child_at(int place, int axis, int half) {
         const int p = axis == 0 ? 1 : 0;
         const int q = axis == 2 ? 1 : 2;

@@ -12,23 +12,23 @@
 
 namespace heddle {
 
-/// What one material of one block is gathered into, where an executor works: as FiberSums on the
-/// CPU, with a place for every voxel. All adding is atomic and of integers.
+/// The sums of one material in one block, for executors: the counterpart of FiberSums on the CPU,
+/// with sums for every voxel. All additions are atomic and of integers.
 struct DenseLobe {
-    static constexpr int kMaskWords = 12; ///< columns along x, y, z; 8 of subvoxels; a spare one
+    static constexpr int kMaskWords = 12; ///< columns along x, y, z; 8 of subvoxels; one spare
     static constexpr int kSubvoxels = 3;  ///< the first mask word of subvoxels
-    static constexpr int kLobeWords = LobeField::Count + 1; ///< and a spare one
+    static constexpr int kLobeWords = LobeField::Count + 1; ///< and one spare
     static constexpr int kMapWords = MapField::Count;
 
-    std::uint64_t* masks = nullptr; ///< kMaskWords a voxel, by (x 32 + y) 32 + z
-    std::uint64_t* lobes = nullptr; ///< kLobeWords a voxel, two's complement
-    std::uint64_t* maps = nullptr;  ///< kMapWords a voxel; null without maps
-    std::uint32_t color = 0xffffff; ///< of a fiber
+    std::uint64_t* masks = nullptr; ///< kMaskWords per voxel (x 32 + y) 32 + z
+    std::uint64_t* lobes = nullptr; ///< kLobeWords per voxel, two's complement
+    std::uint64_t* maps = nullptr;  ///< kMapWords per voxel; null: no map sums
+    std::uint32_t color = 0xffffff; ///< colour of the fiber
 
     HEDDLE_HD void or_column(int cell, int axis, std::uint64_t bits) const {
         executor::atomic_or(masks + cell * kMaskWords + axis, bits);
     }
-    /// @param word  of the voxel's subvoxels: bit (x n + y) n + z over all words
+    /// @param word  word of the voxel's subvoxels, which are bits (x n + y) n + z of all words
     HEDDLE_HD void or_subvoxels(int cell, int word, std::uint64_t bits) const {
         executor::atomic_or(masks + cell * kMaskWords + kSubvoxels + word, bits);
     }
@@ -44,29 +44,29 @@ struct DenseLobe {
     }
 };
 
-/// A block of a batch: which voxels it has. Crosses to the device as it lies.
+/// A block of a batch and its range of voxels. It is uploaded as it is.
 struct BatchBlock {
-    Vec3i index;    ///< of the block
-    Vec3i lo, size; ///< first voxel; voxels per axis, fewer than 32 where a region cuts it
-    std::uint32_t first_plane = 0; ///< of its lobes: one plane a material
+    Vec3i index;    ///< index of the block
+    Vec3i lo, size; ///< first voxel; voxels per axis, fewer than 32 if a region clips it
+    std::uint32_t first_plane = 0; ///< first plane of its lobes; one plane per material
     std::uint32_t planes = 0;
-    MaterialSet materials; ///< that its primitives have
+    MaterialSet materials; ///< materials of its primitives
 };
 static_assert(sizeof(BatchBlock) == 80);
 
 /// The sums of a batch of blocks.
 struct DenseSums {
     const BatchBlock* blocks = nullptr;
-    std::uint64_t* masks = nullptr; ///< a block's voxels follow each other
-    std::uint64_t* lobes = nullptr; ///< plane by plane: kVoxelsPerBlock voxels each
-    std::uint64_t* maps = nullptr;  ///< plane by plane; null without maps
+    std::uint64_t* masks = nullptr; ///< block by block, kVoxelsPerBlock voxels each
+    std::uint64_t* lobes = nullptr; ///< plane by plane, kVoxelsPerBlock voxels each
+    std::uint64_t* maps = nullptr;  ///< plane by plane; null: no map sums
 
-    /// Plane of a material in a block whose primitives have it.
+    /// Returns the plane of a material in a block. The block must have the material.
     [[nodiscard]] HEDDLE_HD static std::uint32_t plane_of(const BatchBlock& block,
                                                           std::uint32_t material) {
         return block.first_plane + block.materials.count_below(material);
     }
-    /// Weight of a lobe; 0 where there is none.
+    /// Returns the weight of a lobe; 0 if there is none.
     /// @param at  plane x kVoxelsPerBlock + cell
     [[nodiscard]] HEDDLE_HD std::uint64_t weight_at(std::size_t at) const {
         return lobes[at * DenseLobe::kLobeWords + LobeField::Weight];
@@ -79,7 +79,7 @@ struct DenseSums {
         if (maps != nullptr) out.maps = maps + plane * DenseLobe::kMapWords;
         return out;
     }
-    /// Bytes of a batch's sums.
+    /// Returns the bytes of a batch's sums.
     [[nodiscard]] static constexpr std::int64_t
     byte_count(std::int64_t blocks, std::int64_t planes, bool with_maps) {
         return std::int64_t{kVoxelsPerBlock} * 8 *

@@ -7,7 +7,7 @@
 
 namespace heddle {
 
-/// Merges the lobes of level 0 where a voxel has more than may be stored, and lines them up.
+/// Merges the lobes of level 0 if a voxel has more than may be stored, and orders them.
 template <typename Exec>
 void merge_lobes(Exec& exec, int max_lobes, LevelArrays& level) {
     const std::size_t n = level.voxel_count;
@@ -26,10 +26,10 @@ void merge_lobes(Exec& exec, int max_lobes, LevelArrays& level) {
     level.maps = std::move(maps);
 }
 
-/// Level 0 of a batch from its sums: the lobes of each voxel, one a material, merged where there
-/// are more than may be stored. The same as fit_block() finds.
-/// @param blocks   of the batch
-/// @param merging  a block has lobes of more than one material
+/// Returns level 0 of a batch from its sums: the lobes of each voxel, one per material, merged if
+/// there are more than may be stored. They are the same as those of fit_block().
+/// @param blocks   blocks of the batch
+/// @param merging  true: some block has lobes of more than one material
 /// @throws Error  OutOfMemory, Device
 template <typename Exec>
 [[nodiscard]] LevelArrays fit_sums(Exec& exec,

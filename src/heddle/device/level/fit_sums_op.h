@@ -12,12 +12,12 @@
 
 namespace heddle {
 
-/// One voxel's place in a batch's sums.
+/// The position of one voxel in a batch's sums.
 struct SumsIndex {
-    std::uint32_t slot = 0; ///< of the block
-    int cell = -1;          ///< relative to the block's lo; < 0: outside of what it has
+    std::uint32_t slot = 0; ///< slot of the block
+    int cell = -1;          ///< relative to the block's lo; < 0: outside of the block's range
 
-    /// @param i  block x kVoxelsPerBlock + place in Z-order
+    /// @param i  block x kVoxelsPerBlock + position in Z-order
     HEDDLE_HD SumsIndex(const BatchBlock* blocks, std::size_t i)
         : slot(static_cast<std::uint32_t>(i / kVoxelsPerBlock)) {
         const BatchBlock& block = blocks[slot];
@@ -29,7 +29,7 @@ struct SumsIndex {
     }
 };
 
-/// Counts what voxel i of a batch has: 0 or 1 voxels, and lobes, one a material.
+/// Counts voxel i of a batch, as 0 or 1, and its lobes, one per material.
 struct CountVoxelOp {
     DenseSums sums;
     std::uint8_t* voxels;
@@ -51,12 +51,12 @@ struct CountVoxelOp {
     }
 };
 
-/// Writes voxel i of a batch, where it is one, to its place in the level's arrays, with a lobe a
-/// material.
+/// Writes voxel i of a batch, if it is occupied, to its position in the level's arrays, with one
+/// lobe per material.
 struct FitVoxelOp {
     DenseSums sums;
     FitOptions options;
-    std::size_t cells; ///< of the batch; item `cells` writes where the last voxel's lobes end
+    std::size_t cells; ///< cells of the batch; item `cells` writes the end of the last lobes
     std::uint32_t voxel_count;
     const std::uint32_t* first_voxel; ///< per i, and the end
     const std::uint32_t* first_lobe;  ///< per i, and the end
@@ -90,7 +90,7 @@ struct FitVoxelOp {
     }
 
 private:
-    /// In the order of their materials: as they were met depends on chance.
+    /// Writes the lobes in the order of their materials, since the order of gathering is random.
     HEDDLE_HD void write_lobes(const BatchBlock& block, std::size_t cell, std::uint32_t to) const {
         std::uint32_t plane = block.first_plane;
         block.materials.for_each([&](std::uint32_t material) {
@@ -116,21 +116,20 @@ private:
     }
 };
 
-/// Merges the lobes of one voxel where they lie until as many are left as may be stored, and lines
-/// them up.
+/// Merges the lobes of one voxel in place until as many are left as may be stored, and orders them.
 struct MergeLobesOp {
     const std::uint32_t* first_lobe; ///< per voxel, and the end
     DirectionSums* lobes;
-    MapSums* maps; ///< null without
+    MapSums* maps; ///< null: no map sums
     int max_lobes;
     std::uint32_t* order;
-    std::uint8_t* count; ///< lobes left
+    std::uint8_t* count; ///< number of remaining lobes
 
     HEDDLE_HD void operator()(std::size_t v) const {
         const std::uint32_t begin = first_lobe[v];
         const auto all = static_cast<int>(first_lobe[v + 1] - begin);
         LobeRow row{0, lobes + begin, maps == nullptr ? nullptr : maps + begin};
-        for (int next = 0; next < all; ++next) { // as many at once as a pool holds
+        for (int next = 0; next < all; ++next) { // reduce whenever the pool is full
             if (row.count == kMaxPool) reduce(row, kMaxLobes, ByMoments{});
             row.sums[row.count] = row.sums[next];
             if (row.maps != nullptr) row.maps[row.count] = row.maps[next];

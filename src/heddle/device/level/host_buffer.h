@@ -6,12 +6,12 @@
 
 namespace heddle {
 
-/// Room on the host for what comes from an executor, kept from batch to batch and never cleared: a
-/// std::vector would write all of it once more.
+/// Host memory for data from an executor, reused from batch to batch. It is never cleared, unlike a
+/// std::vector, which would write all of it once more.
 template <typename T>
 class HostBuffer {
 public:
-    /// Makes it `n` long; what it held is lost.
+    /// Sets its length to `n` and returns it; its contents are lost.
     std::span<T> resize(std::size_t n) {
         if (n > capacity_) {
             data_.reset();

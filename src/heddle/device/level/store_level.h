@@ -8,20 +8,20 @@ namespace heddle {
 
 namespace detail {
 
-/// Fills a buffer of the host; the array is given back.
+/// Downloads an array to a buffer of the host and frees the array.
 template <typename Exec, typename T>
 void download_array(Exec& exec, executor::Array<T> from, HostBuffer<T>& to) {
     const std::span<T> room = to.resize(from.size());
     exec.download(room, static_cast<const T*>(from.data()));
 }
 
-/// Where a level's voxels and lobes go.
+/// The stored order of a level's voxels and lobes.
 struct StoredOrder {
-    executor::Array<std::uint32_t> voxel_at;   ///< per stored voxel
-    executor::Array<std::uint32_t> lobe_begin; ///< per stored voxel, and the end
+    executor::Array<std::uint32_t> voxel_at;   ///< per stored voxel: its number in the level
+    executor::Array<std::uint32_t> lobe_begin; ///< first lobe of each stored voxel, and the end
 };
 
-/// Finds it, and the leaves.
+/// Finds the stored order and the leaves.
 template <typename Exec>
 [[nodiscard]] StoredOrder
 order_voxels(Exec& exec, const LevelArrays& level, std::size_t blocks, StoredLevel& out) {
@@ -104,9 +104,9 @@ void store_sums(Exec& exec, const LevelArrays& level, const StoredOrder& order, 
 
 } // namespace detail
 
-/// Makes what is stored of a level, and brings it to the host.
-/// @param blocks  of the batch
-/// @param out     its buffers are used again
+/// Computes the stored form of a level and downloads it.
+/// @param blocks  blocks of the batch
+/// @param out     its buffers are reused
 /// @throws Error  OutOfMemory, Device
 template <typename Exec>
 void store_level_arrays(Exec& exec,

@@ -12,21 +12,21 @@
 
 namespace heddle {
 
-/// Where voxels of a level stand in a batch's leaves: cells of 8^3 voxels counted from the block's
-/// corner, or the whole block where it is smaller. They follow each other block by block, in a
-/// block by ascending x, y, z, and so do the voxels of a leaf.
+/// The positions of a level's voxels in a batch's leaves: cubes of 8^3 voxels from the block's
+/// corner, or the whole block if it is smaller. Leaves are ordered by block and then by ascending
+/// x, y, z, as are the voxels of a leaf.
 struct LeafCells {
     int level = 0;
 
-    /// Leaves along a block's edge.
+    /// Returns the number of leaves along a block's edge.
     [[nodiscard]] HEDDLE_HD constexpr int edge() const { return level < 2 ? 4 >> level : 1; }
     [[nodiscard]] HEDDLE_HD constexpr std::size_t per_block() const {
         return static_cast<std::size_t>(edge() * edge() * edge());
     }
-    /// A voxel's leaf, and its bit in it.
+    /// The leaf of a voxel, and the voxel's bit in it.
     struct LeafPosition {
         std::size_t leaf;
-        int x;   ///< word
+        int x;   ///< number of the word
         int bit; ///< 8 y + z
     };
     [[nodiscard]] HEDDLE_HD LeafPosition place(std::uint64_t key) const {
@@ -44,7 +44,7 @@ struct LeafCells {
 struct MarkLeavesOp {
     LeafCells cells;
     const std::uint64_t* key;
-    std::uint64_t* active; ///< 8 words a leaf
+    std::uint64_t* active; ///< 8 words per leaf
 
     HEDDLE_HD void operator()(std::size_t v) const {
         const LeafCells::LeafPosition at = cells.place(key[v]);
@@ -64,14 +64,14 @@ struct CountLeavesOp {
     }
 };
 
-/// Finds where each voxel goes.
+/// Finds the stored position of each voxel.
 struct RankVoxelsOp {
     LeafCells cells;
     const std::uint64_t* key;
     const std::uint64_t* active;
     const std::uint32_t* first_voxel; ///< per leaf
     const std::uint32_t* first_lobe;  ///< per voxel
-    std::uint32_t* voxel_at;          ///< per stored voxel: which it is
+    std::uint32_t* voxel_at;          ///< per stored voxel: its number in the level
     std::uint8_t* lobe_count;         ///< per stored voxel
 
     HEDDLE_HD void operator()(std::size_t v) const {
@@ -85,7 +85,7 @@ struct RankVoxelsOp {
     }
 };
 
-/// Finds each leaf's first lobe; item `leaves` is the end.
+/// Finds each leaf's first lobe; item `leaves` writes the end.
 struct FirstLobesOp {
     const std::uint32_t* first_voxel; ///< per leaf, and the end
     const std::uint32_t* lobe_begin;  ///< per stored voxel, and the end
@@ -96,10 +96,10 @@ struct FirstLobesOp {
     }
 };
 
-/// Coverage and footprint of a stored voxel along one axis: item 3 x voxel + axis.
+/// Computes coverage and footprint of a stored voxel along one axis: item 3 x voxel + axis.
 struct StoreFaceOp {
     int level;
-    int subvoxels;  ///< of level 0
+    int subvoxels;  ///< per voxel axis of level 0
     int footprints; ///< cells per axis; 0: none
     const std::uint32_t* voxel_at;
     const std::uint32_t* hits;
@@ -133,18 +133,18 @@ struct StoreFaceOp {
     }
 };
 
-/// Lobes of a stored voxel: S is fitted and packed.
+/// Writes the lobes of a stored voxel: S is fitted and packed.
 struct StoreLobesOp {
     const std::uint32_t* voxel_at;
     const std::uint32_t* first_lobe; ///< per voxel, and the end
     const std::uint32_t* lobe_begin; ///< per stored voxel
     const std::uint32_t* order_from; ///< per voxel
     const DirectionSums* sums;
-    const MapSums* map_sums; ///< null without
-    std::uint32_t* order;    ///< per stored voxel; null: not wanted
+    const MapSums* map_sums; ///< null: no map sums
+    std::uint32_t* order;    ///< per stored voxel; null: not stored
     Lobe* lobes;
-    LobeMaps* maps;       ///< null: not wanted
-    PackedSggx* tangents; ///< null: not wanted
+    LobeMaps* maps;       ///< null: not stored
+    PackedSggx* tangents; ///< null: not stored
 
     HEDDLE_HD void operator()(std::size_t rank) const {
         const std::size_t v = voxel_at[rank];
@@ -164,15 +164,15 @@ struct StoreLobesOp {
     }
 };
 
-/// Columns and sums of a stored voxel of level 0.
+/// Writes the columns and sums of a stored voxel of level 0.
 struct StoreSumsOp {
     const std::uint32_t* voxel_at;
     const std::uint32_t* first_lobe; ///< per voxel, and the end
     const std::uint32_t* lobe_begin; ///< per stored voxel
     const std::uint64_t* columns_from;
     const DirectionSums* sums;
-    const MapSums* maps_from; ///< null without
-    std::uint64_t* columns;   ///< 3 a voxel
+    const MapSums* maps_from; ///< null: no map sums
+    std::uint64_t* columns;   ///< 3 per voxel
     LobeMoment* moments;
     MapSums* maps;
 

@@ -9,13 +9,13 @@
 namespace heddle {
 namespace {
 
-/// Items [begin, end) of a buffer, if it has any.
+/// Copies items [begin, end) of a buffer, if it has any.
 template <typename T>
 void cut_range(const HostBuffer<T>& from, std::size_t begin, std::size_t end, std::vector<T>& out) {
     if (from.size() > 0) out.assign(from.data() + begin, from.data() + end);
 }
 
-/// The same where three numbers are one item.
+/// Copies items of three numbers each.
 void cut_triples(const HostBuffer<std::uint64_t>& from,
                  std::size_t begin,
                  std::size_t end,
@@ -27,8 +27,8 @@ void cut_triples(const HostBuffer<std::uint64_t>& from,
     }
 }
 
-/// A leaf as it is stored: cells of blocks that are smaller lie somewhere inside it.
-/// @param corner  of the cell, voxels of the level
+/// Returns a stored leaf. If blocks are smaller than a leaf, a block's cube is a part of it.
+/// @param corner  corner of the cube, in voxels of the level
 VoxelLeaf make_leaf(Vec3i corner, const std::uint64_t* active) {
     VoxelLeaf leaf;
     leaf.origin = {corner.x & ~7, corner.y & ~7, corner.z & ~7};

@@ -12,7 +12,8 @@
 
 namespace heddle {
 
-/// Pooled directions of one material in one voxel. Integer sums: no order of adding shows.
+/// The pooled directions of one material in one voxel. Sums are integers, so the order of adding
+/// has no effect.
 struct LobeSums {
     std::array<std::int64_t, 6> moment{}; ///< sum of weight x d d^T: xx yy zz xy xz yz
     std::int64_t weight = 0;
@@ -21,11 +22,11 @@ struct LobeSums {
 };
 static_assert(sizeof(LobeSums) == 64);
 
-/// All that is gathered in one voxel.
+/// All sums of one voxel.
 struct VoxelSums {
     std::array<std::uint64_t, 3>
-        column{};                       ///< per axis, bit b * n + a of the other two axes (a < b)
-    std::array<std::uint64_t, 8> sub{}; ///< subvoxel (x, y, z): bit (x n + y) n + z over all words
+        column{};                       ///< per axis: bit b * n + a of the other two axes (a < b)
+    std::array<std::uint64_t, 8> sub{}; ///< subvoxel (x, y, z) is bit (x n + y) n + z of all words
     LobeSums lobe;                      ///< the first material's; weight 0: none yet
 };
 static_assert(sizeof(VoxelSums) == 152);
@@ -38,21 +39,22 @@ public:
 
     explicit BlockSums(bool with_maps);
 
-    /// Empties it for the block whose voxel range is [lo, hi), at most kBlockVoxels an axis.
+    /// Clears the sums for the block with voxel range [lo, hi), at most kBlockVoxels per axis.
     void reset(Vec3i lo, Vec3i hi);
 
-    /// The voxel's sums, made empty at the first call. (x, y, z) relative to lo, inside the block.
+    /// Returns a voxel's sums, which are empty at the first call. (x, y, z) is relative to lo and
+    /// inside the block.
     HEDDLE_HOST_INLINE VoxelSums& voxel(int x, int y, int z) {
         return voxel_at(number_of(x, y, z));
     }
-    /// Voxels that take what lanes without a hit write: numbers kVoxels and on.
+    /// Number of scratch voxels, from number kVoxels on, that lanes without a hit write to.
     static constexpr int kSpareVoxels = 16;
 
-    /// The same by its number, (x 32 + y) 32 + z.
+    /// Returns the sums of a voxel by its number, (x 32 + y) 32 + z.
     HEDDLE_HOST_INLINE VoxelSums& voxel_at(std::uint32_t cell) { return VoxelTable(*this)[cell]; }
 
-    /// voxel_at() for loops that set many bits: a copy in the loop keeps its two addresses in
-    /// registers, which the vectors, reached through a reference, do not. Until the next reset().
+    /// voxel_at() for loops that set many bits. A copy in the loop has its addresses in registers,
+    /// unlike vectors behind a reference. It is valid until the next reset().
     class VoxelTable {
     public:
         HEDDLE_HOST_INLINE explicit VoxelTable(BlockSums& block)
@@ -73,7 +75,7 @@ public:
         int* count_;
     };
 
-    /// The sums of `material` in `voxel`, made empty at the first call.
+    /// Returns the sums of `material` in `voxel`, which are empty at the first call.
     HEDDLE_HOST_INLINE LobeSums& lobe(VoxelSums& voxel, std::uint32_t material) {
         if (voxel.lobe.weight != 0 && voxel.lobe.material != material) {
             return other_lobe(voxel, material);
@@ -81,20 +83,19 @@ public:
         voxel.lobe.material = material;
         return voxel.lobe;
     }
-    /// The map sums that belong to a lobe of `voxel`; only where the accumulator was made with
-    /// maps.
+    /// Returns the map sums of a lobe of `voxel`. Requires has_maps().
     MapSums& maps(const VoxelSums& voxel, const LobeSums& lobe);
 
     [[nodiscard]] Vec3i lo() const { return lo_; }
     [[nodiscard]] Vec3i hi() const { return hi_; }
     [[nodiscard]] int count() const { return count_; }
-    /// The voxel at (x, y, z) relative to lo, or null.
+    /// Returns the voxel at (x, y, z) relative to lo, or null.
     [[nodiscard]] const VoxelSums* find(int x, int y, int z) const {
         const std::uint16_t slot = table_[number_of(x, y, z)];
         return slot == kNone ? nullptr : &voxels_[slot];
     }
-    /// The row of voxels (x, y, 0 .. kBlockVoxels - 1) relative to lo: kNone, or what `at_slot`
-    /// takes.
+    /// Returns the slots for at_slot(), or kNone, of the voxels (x, y, 0 .. kBlockVoxels - 1)
+    /// relative to lo.
     [[nodiscard]] const std::uint16_t* slots(int x, int y) const {
         return &table_[number_of(x, y, 0)];
     }
@@ -106,7 +107,7 @@ public:
     [[nodiscard]] bool has_maps() const { return with_maps_; }
 
 private:
-    /// Of a voxel in the table, as voxel_at() takes it.
+    /// Returns the number of a voxel for voxel_at().
     [[nodiscard]] static HEDDLE_HOST_INLINE std::uint32_t number_of(int x, int y, int z) {
         return static_cast<std::uint32_t>((x * kBlockVoxels + y) * kBlockVoxels + z);
     }

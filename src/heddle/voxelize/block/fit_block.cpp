@@ -15,7 +15,7 @@ namespace {
 constexpr int kLeaf = 8;
 constexpr int kLeaves = kBlockVoxels / kLeaf;
 
-/// Columns along each axis that hold a hit subvoxel.                       [Fabre26, 3.5]
+/// Returns the columns along each axis that contain an occupied subvoxel.  [Fabre26, 3.5]
 std::array<std::uint64_t, 3> project(const VoxelSums& voxel, int n) {
     std::array<std::uint64_t, 3> column{};
     for (int bit = 0; bit < n * n * n; ++bit) {
@@ -37,7 +37,7 @@ HEDDLE_INLINE int hit_subvoxels(const VoxelSums& voxel, int n) {
     return hits;
 }
 
-/// What a block's voxels share while they are fitted.
+/// The data that a block's voxels share while they are fitted.
 struct BlockFit {
     const BlockSums& sums;
     const FitOptions& options;
@@ -47,7 +47,7 @@ struct BlockFit {
     RecentFits fits{};
 };
 
-/// Takes the voxel's lobes into the pool, one a material, as many as may be stored.
+/// Moves the voxel's lobes to the pool, one per material, and merges them to the allowed number.
 /// @return  VoxelBlock::merge_order
 HEDDLE_INLINE std::uint32_t pool_lobes(BlockFit& fit, const VoxelSums& voxel) {
     const BlockSums& sums = fit.sums;
@@ -58,7 +58,7 @@ HEDDLE_INLINE std::uint32_t pool_lobes(BlockFit& fit, const VoxelSums& voxel) {
     std::vector<const LobeSums*>& list = fit.list;
     list.clear();
     for (const LobeSums* l = &voxel.lobe; l != nullptr; l = sums.next(*l)) list.push_back(l);
-    if (list.size() > 1) { // as they were met, which depends on the region
+    if (list.size() > 1) { // they are in the order of gathering, which depends on the region
         std::sort(list.begin(), list.end(),
                   [](const LobeSums* a, const LobeSums* b) { return a->material < b->material; });
     }
@@ -73,7 +73,7 @@ HEDDLE_INLINE std::uint32_t pool_lobes(BlockFit& fit, const VoxelSums& voxel) {
     return reduce_by_moments(pool, options.max_lobes, with_maps);
 }
 
-/// Keeps what coarser levels are built from.
+/// Appends the columns and sums that coarser levels are built from.
 HEDDLE_INLINE void append_sums(BlockFit& fit, const std::array<std::uint64_t, 3>& column) {
     const LobePool& pool = fit.pool;
     fit.out.columns.push_back(column);
@@ -108,7 +108,7 @@ HEDDLE_INLINE std::int64_t append_voxel(BlockFit& fit, const VoxelSums& voxel) {
     return hits;
 }
 
-/// True when a row of a leaf, all of it inside the block, has no voxel: most rows of a surface.
+/// Returns true if a row of a leaf, entirely inside the block, has no voxel, as most of a surface.
 HEDDLE_INLINE bool is_empty_row(const std::uint16_t* slots) {
     static_assert(BlockSums::kNone == 0xffff);
     std::uint64_t words[2];
@@ -117,8 +117,8 @@ HEDDLE_INLINE bool is_empty_row(const std::uint16_t* slots) {
 }
 
 /// Appends a leaf's voxels.
-/// @param base  the leaf's corner relative to the block's lo: a region's block may start inside it
-/// @return      hit subvoxels
+/// @param base  corner of the leaf relative to the block's lo; negative if a region clips the leaf
+/// @return      number of occupied subvoxels
 HEDDLE_INLINE std::int64_t append_leaf(BlockFit& fit, Vec3i base, VoxelLeaf& leaf) {
     const BlockSums& sums = fit.sums;
     const Vec3i size = sums.hi() - sums.lo();

@@ -6,36 +6,37 @@
 
 #include <cstdint>
 
-// The arithmetic of thin chords, over as many chords at once as lanes L have (lanes_*.h): L has the
-// types Real, Int and Mask. Eight lanes and one give the same bits.
+// The arithmetic of thin chords, for as many chords at once as the lanes L have (lanes_*.h). L has
+// the types Real, Int and Mask. The results have the same bits for any number of lanes.
 
 namespace heddle {
 
-/// A voxel index as one number, x << 20 | y << 10 | z: adding adds all three, and a coordinate that
-/// leaves 0 .. 31 shows in its upper bits. Enough for what lies within 400 voxels of the block.
+/// Returns the shift of a coordinate in a voxel word, x << 20 | y << 10 | z. Adding words adds all
+/// three coordinates, and a coordinate outside 0 .. 31 sets its upper bits. A word is valid within
+/// 400 voxels of the block.
 [[nodiscard]] HEDDLE_HD constexpr int field_shift(int axis) {
     return 20 - 10 * axis;
 }
 constexpr std::int32_t kFieldOverflow =
     static_cast<std::int32_t>(0xfe000000u) | 0x3e0 << 10 | 0x3e0;
 
-/// Thin chords, units; and what has been found of them.
+/// Thin chords in units, and intermediate results.
 template <typename L>
 struct ChordLanes {
     typename L::Real start[3], dir[3];
     typename L::Real length, before, after, radius;
     typename L::Int anchor;    ///< voxel word, relative to the block's lo
-    typename L::Mask active;   ///< may meet the block
-    typename L::Int passed[4]; ///< the first voxel words that the centreline passes
+    typename L::Mask active;   ///< chords that may intersect the block
+    typename L::Int passed[4]; ///< words of the first voxels that the centreline crosses
 };
 
-/// Which voxel words a block holds.
+/// Tests which voxel words are inside a block.
 template <typename L>
 class BlockWords {
 public:
     using Int = typename L::Int;
 
-    /// @param size  of the block, voxels
+    /// @param size  size of the block, voxels
     HEDDLE_INLINE explicit BlockWords(Vec3i size) {
         std::uint32_t word = 0;
         for (int a = 0; a < 3; ++a) {
@@ -46,16 +47,16 @@ public:
     [[nodiscard]] HEDDLE_INLINE typename L::Mask holds(Int word) const {
         return ((word | (word + spare_)) & Int(kFieldOverflow)) == Int(0);
     }
-    /// Number of the voxel in the block's table.
+    /// Returns the number of a voxel in the block's table.
     [[nodiscard]] HEDDLE_INLINE static Int cell(Int word) {
         return (word & Int(31)) | ((word >> 5) & Int(31 << 5)) | ((word >> 10) & Int(31 << 10));
     }
 
 private:
-    Int spare_; ///< 32 less the block's size, as a voxel word
+    Int spare_; ///< 32 minus the block's size, as a voxel word
 };
 
-/// Chords whose round body comes into a block.
+/// Returns the chords whose cylinders may intersect a block.
 /// @param anchor  per axis, relative to the block's lo
 template <typename L>
 [[nodiscard]] HEDDLE_INLINE typename L::Mask meets_block(const ChordLanes<L>& k,
@@ -63,7 +64,7 @@ template <typename L>
                                                          const LatticeUnits& u,
                                                          Vec3i size) {
     using Real = typename L::Real;
-    constexpr float kMargin = 0.01f; // of a voxel: rounding by the block's place decides nothing
+    constexpr float kMargin = 0.01f; // voxels; more than rounding, which depends on the block
     typename L::Mask active = Real(0.0f) < k.length;
     for (int a = 0; a < 3; ++a) {
         const Real p0 = k.start[a] - k.dir[a] * k.before;
@@ -77,8 +78,8 @@ template <typename L>
     return active;
 }
 
-/// Second moment of each chord's directions: the direction turns by `bend` along it, so over the
-/// chord d d^T + bend bend^T / 12, brought back to trace 1.
+/// Computes the second moment of each chord's directions: d d^T + bend bend^T / 12, as the
+/// direction changes by `bend` along the chord, normalized to trace 1.
 /// @param out  xx yy zz xy xz yz, 1, 0
 template <typename L>
 HEDDLE_INLINE void chord_moments(const ChordLanes<L>& k,
@@ -100,8 +101,8 @@ HEDDLE_INLINE void chord_moments(const ChordLanes<L>& k,
     out[7] = Real(0.0f);
 }
 
-/// Calls visit(mask, word, length) for each part of the centrelines of active chords that lies in
-/// one voxel, and notes the first four in k.passed.
+/// Calls visit(mask, word, length) for each part of the active chords' centrelines within one
+/// voxel, and stores the words of the first four voxels in k.passed.
 template <typename L, typename Visit>
 HEDDLE_INLINE void
 for_each_chord_voxel(const LatticeUnits& u, ChordLanes<L>& k, const Visit& visit) {
@@ -125,7 +126,7 @@ for_each_chord_voxel(const LatticeUnits& u, ChordLanes<L>& k, const Visit& visit
         word = word + (to_int(v0) << field_shift(a));
     }
     Real from(0.0f);
-    for (Int& passed : k.passed) passed = Int(-1); // in no block
+    for (Int& passed : k.passed) passed = Int(-1); // outside any block
     Mask open = k.active;
     for (int part = 0; open.bits() != 0; ++part) {
         const Real border = min(min(next[0], next[1]), next[2]);
@@ -143,17 +144,18 @@ for_each_chord_voxel(const LatticeUnits& u, ChordLanes<L>& k, const Visit& visit
     }
 }
 
-/// What a column's test needs of a chord: linear in the column's indices (i, j) along the two axes.
+/// The terms of a chord for testing columns, linear in a column's indices (i, j) along the two
+/// axes.
 template <typename L>
 struct ColumnTerms {
     typename L::Real across, across_i, across_j; ///< distance from the axis x sin, units
     typename L::Real axial, axial_i, axial_j;    ///< axial coordinate nearest to the centre line
     typename L::Real r2s2, inv_s2;               ///< (radius sin)^2, 1 / sin^2
     typename L::Real o_depth, d_depth;           ///< depth = o_depth + axial d_depth, units
-    typename L::Real axial_enter, inv_d_depth; ///< the end of the axial range with the least depth
-    typename L::Real depth_range;              ///< depth between the ends, where flat ends cut
+    typename L::Real axial_enter, inv_d_depth;   ///< end of the axial range with the smallest depth
+    typename L::Real depth_range;                ///< depth between the flat ends
 
-    /// The terms of other chords in each lane.
+    /// Returns the terms with the lanes permuted by `lane`.
     [[nodiscard]] HEDDLE_INLINE ColumnTerms picked(typename L::Int lane) const {
         return {pick(across, lane),     pick(across_i, lane),    pick(across_j, lane),
                 pick(axial, lane),      pick(axial_i, lane),     pick(axial_j, lane),
@@ -163,14 +165,14 @@ struct ColumnTerms {
     }
 };
 
-/// Thin chords seen along one axis. `major` is that other axis along which a chord passes more
-/// columns, `minor` the last one.
+/// Thin chords seen along one axis. Of the other two, `major` is the axis along which a chord
+/// crosses more columns, and `minor` the other one.
 template <typename L>
 struct ChordProjection {
-    typename L::Mask swapped;        ///< major is the later of the two other axes
+    typename L::Mask swapped;        ///< major is the second of the two other axes
     typename L::Real first, last;    ///< columns along major
-    typename L::Real strip, strip_i; ///< lower edge of the body at column i, in column indices j
-    typename L::Real width;          ///< of the body along minor, in columns
+    typename L::Real strip, strip_i; ///< lower edge of the cylinder at column i, as a column j
+    typename L::Real width;          ///< width of the cylinder along minor, in columns
     ColumnTerms<L> terms;
 };
 
@@ -199,8 +201,8 @@ template <typename L, int kDepth>
     const Real p1 = oM + dM * hi;
     v.first = ceil((min(p0, p1) - k.radius) * inv_eM - Real(0.5f));
     v.last = floor((max(p0, p1) + k.radius) * inv_eM - Real(0.5f));
-    // Closer to the axis than 1/1000 the chord is taken as 1/1000 off it: a turn of less than 1/100
-    // subvoxel over a voxel's depth, and every quotient below stays finite.
+    // If the chord is within 1/1000 of the axis direction, it is tilted by 1/1000, so that all
+    // quotients are finite. It moves by less than 1/100 subvoxel over a voxel's depth.
     Real s2 = dM * dM + dm * dm;
     const Mask along = s2 < Real(1e-6f);
     dM = select(along, Real(1e-3f), dM);
@@ -212,7 +214,7 @@ template <typename L, int kDepth>
     const Real qM = Real(0.5f) * eM - oM; // of column (0, 0)
     const Real qm = Real(0.5f) * em - om;
     const Real slope = dm * inv_major * inv_em;
-    // a hair wider than the body, so that rounding loses no column; the test itself is exact
+    // slightly wider than the cylinder, so that rounding loses no column; the later test is exact
     const Real half_width = k.radius * abs(sqrt(s2) * inv_major) * inv_em + Real(0.001f);
     v.width = half_width + half_width;
     v.strip = qM * slope - qm * inv_em - half_width;
@@ -231,7 +233,7 @@ template <typename L, int kDepth>
     return v;
 }
 
-/// Where a column's centre line enters and leaves a chord's body, units of depth.
+/// The depths, in units, at which a column's centre line enters and leaves a chord's cylinder.
 template <typename L>
 struct ColumnDepths {
     typename L::Mask hit;
@@ -253,18 +255,18 @@ column_depths(const ColumnTerms<L>& t, typename L::Real i, typename L::Real j) {
     return {(Real(0.0f) < disc) & (enter < leave), enter, leave};
 }
 
-/// The voxels and subvoxels of a column that a chord meets.
+/// The voxels and subvoxels of a column inside a chord's cylinder.
 template <typename L, int kDepth>
 struct ColumnAddress {
     using Real = typename L::Real;
     using Int = typename L::Int;
 
     Int base;                 ///< voxel word at depth 0
-    Int bit;                  ///< of the column
-    Int depth, last;          ///< voxels along the axis
-    Int z0{0}, z1{0}, row{0}; ///< along z: first and last subvoxel; bit of the voxel's row of them
+    Int bit;                  ///< number of the column's bit
+    Int depth, last;          ///< first and last voxel along the axis
+    Int z0{0}, z1{0}, row{0}; ///< along z: first and last subvoxel; first bit of the voxel's row
 
-    /// @param i, j  along major and minor
+    /// @param i, j  column indices along major and minor
     HEDDLE_INLINE ColumnAddress(Int anchor,
                                 typename L::Mask swapped,
                                 Real i,
@@ -291,7 +293,7 @@ struct ColumnAddress {
             row = (((ia & low) << shift) | (ib & low)) << shift;
         }
     }
-    /// Subvoxels in the voxel at `depth`: first one's bit | how many << 9.
+    /// Returns the subvoxels in the voxel at `depth`: first bit | count << 9.
     [[nodiscard]] HEDDLE_INLINE Int run(int shift) const {
         const Int low((1 << shift) - 1);
         const Int from = max(z0, depth << shift);
@@ -300,7 +302,8 @@ struct ColumnAddress {
     }
 };
 
-/// True for voxels that a chord's centreline passes: its direction is pooled there already.
+/// Returns true for voxels that a chord's centreline crosses, where its direction is already
+/// pooled.
 template <typename L>
 [[nodiscard]] HEDDLE_INLINE typename L::Mask is_passed(const typename L::Int (&passed)[4],
                                                        typename L::Int word) {

@@ -8,20 +8,21 @@
 
 namespace heddle {
 
-/// A piece of fiber no thicker than kThickRadius, units, relative to the corner of a voxel.
+/// A straight piece of fiber with a radius of at most kThickRadius, in units relative to the corner
+/// of a voxel.
 struct ThinChord {
     Vec3f start;
     Vec3f dir;  ///< unit
-    Vec3f bend; ///< by how much the fiber's direction changes along the chord
+    Vec3f bend; ///< change of the fiber's direction along the chord
     float length = 0.0f;
-    float before = 0.0f, after = 0.0f; ///< as in Chord
+    float before = 0.0f, after = 0.0f; ///< see Chord
     float radius = 0.0f;
 };
 
-/// The block that chords go to.
+/// The block that chords are added to.
 struct ChordSpace {
     LatticeUnits units;
-    Vec3i size; ///< of the block, voxels
+    Vec3i size; ///< size of the block, voxels
     int shift;  ///< log2 of the subvoxels per axis
 
     HEDDLE_HD ChordSpace(const LatticeUnits& u, Vec3i block_size)
@@ -30,7 +31,7 @@ struct ChordSpace {
 
 namespace chord_detail {
 
-/// Sets the columns along axis kDepth that the chord meets, and for z the subvoxels.
+/// Sets the bits of the columns along axis kDepth that the chord covers, and along z of subvoxels.
 template <int kDepth, typename Sums>
 HEDDLE_HD inline void mark_columns(const ChordLanes<one::Lanes>& k,
                                    const float (&moment)[8],
@@ -67,8 +68,8 @@ HEDDLE_HD inline void mark_columns(const ChordLanes<one::Lanes>& k,
     }
 }
 
-/// Pools the chord's direction, by the directed area 2 r length, in a voxel that its centreline
-/// passes.
+/// Pools the chord's direction, weighted by the directed area 2 r length, in a voxel that its
+/// centreline crosses.
 template <typename Sums>
 struct PoolPart {
     const BlockWords<one::Lanes>& block;
@@ -78,16 +79,16 @@ struct PoolPart {
 
     HEDDLE_HD void operator()(one::Mask some, one::Int word, one::Real length) const {
         if (!some.v || !block.holds(word).v) return;
-        // a sliver counts as much as a graze: enough to name a direction
+        // short parts have at least the weight of a grazed voxel, so that the voxel has a direction
         sums.pool(block.cell(word).v, moment, max(width * length, one::Real(kGrazeWeight)).v);
     }
 };
 
 } // namespace chord_detail
 
-/// Adds a thin chord to the voxels of a block that it meets: what gather_thin() does with eight, to
-/// the same bits.
-/// @param anchor  the voxel that the chord is relative to, relative to the block's lo
+/// Adds a thin chord to the voxels of a block that it intersects. The result has the same bits as
+/// that of gather_thin().
+/// @param anchor  voxel that the chord's positions are relative to, relative to the block's lo
 /// @param sums    has or_column(cell, axis, bits); or_subvoxels(cell, word, bits);
 ///                pool(cell, moment, weight), units^2; cell = (x 32 + y) 32 + z
 template <typename Sums>

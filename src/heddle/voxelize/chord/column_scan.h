@@ -10,18 +10,18 @@
 
 namespace heddle {
 
-/// A straight round piece of fiber, flat at both ends, in units, relative to a voxel's corner.
+/// A cylindrical piece of fiber with flat ends, in units relative to a voxel's corner.
 struct Cylinder {
-    Vec3f origin; ///< of the axial coordinate
+    Vec3f origin; ///< where the axial coordinate is 0
     Vec3f dir;    ///< unit
     float lo = 0; ///< axial range
     float hi = 0;
     float radius = 0;
 };
 
-constexpr int kPatch = 16; ///< columns tested at once: 4 x 4
+constexpr int kPatch = 16; ///< number of columns tested at once: 4 x 4
 
-/// Depths at which a patch's columns enter and leave the cylinder.
+/// The depths at which the centre lines of a patch's columns enter and leave the cylinder.
 struct PatchDepths {
     float enter[kPatch];
     float leave[kPatch];
@@ -32,7 +32,7 @@ struct ColumnProjection {
     float oa, ob, oc, da, db, dc;
     float ea, eb; ///< subvoxel edges
     float depth;  ///< voxel edge along c
-    float r2s2;   ///< (radius sin)^2, sin of the angle between cylinder and axis
+    float r2s2;   ///< (radius sin)^2, with the angle between cylinder and axis
     float inv_s2; ///< 1 / sin^2
     float lo, hi; ///< axial range
 
@@ -48,8 +48,8 @@ struct ColumnProjection {
           depth(u.voxel[c]),
           lo(k.lo),
           hi(k.hi) {
-        // Closer to the axis than 1/1000 the cylinder is taken as 1/1000 off it: a turn of less
-        // than 1/100 subvoxel over a voxel's depth, and every quotient below stays finite.
+        // If the cylinder is within 1/1000 of the axis direction, it is tilted by 1/1000, so that
+        // all quotients are finite. It moves by less than 1/100 subvoxel over a voxel's depth.
         float s2 = da * da + db * db;
         if (s2 < 1e-6f) {
             da = 1e-3f;
@@ -61,11 +61,11 @@ struct ColumnProjection {
     }
 };
 
-/// Which of 4 x 4 columns have a centre line that meets the cylinder inside the voxel.
+/// Finds the columns of 4 x 4 whose centre lines hit the cylinder inside the voxel.
 ///
-/// The line at (a, b) meets the infinite cylinder between depths z_c -+ half, where z_c is its
-/// depth nearest to the axis; the answer is whether this interval, cut to the voxel's depth,
-/// reaches into the axial range [lo, hi].
+/// The line at (a, b) is inside the infinite cylinder between depths z_c -+ half, where z_c is its
+/// depth nearest to the axis. It is a hit if this interval, clipped to the voxel's depth, overlaps
+/// the axial range [lo, hi].
 /// @param a0, b0  the patch's first column
 /// @return        bit 4 (b - b0) + (a - a0)
 HEDDLE_INLINE std::uint32_t
@@ -99,9 +99,9 @@ scan_patch(const ColumnProjection& v, int a0, int b0, PatchDepths* depths) {
     return hits;
 }
 
-/// Spreads a patch's 16 bits into the 64-bit column mask of a voxel with n columns an axis.
+/// Returns a patch's 16 bits at their positions in the column mask of a voxel, n columns per axis.
 HEDDLE_INLINE std::uint64_t place_patch(std::uint32_t hits, int a0, int b0, int n) {
-    if (n < 4) { // lanes beyond the voxel exist only here
+    if (n < 4) { // only here, some lanes are outside the voxel
         const std::uint32_t row = (1u << n) - 1u;
         std::uint64_t mask = 0;
         for (int b = 0; b < n; ++b) {
@@ -115,7 +115,7 @@ HEDDLE_INLINE std::uint64_t place_patch(std::uint32_t hits, int a0, int b0, int 
     return spread << (b0 * n + a0);
 }
 
-/// Columns [first, last] whose centres lie in [lo, hi], clipped to the voxel; empty: last < first.
+/// The columns [first, last] with centres in [lo, hi], clipped to the voxel; empty: last < first.
 struct ColumnRange {
     int first, last;
 };
@@ -123,7 +123,7 @@ HEDDLE_INLINE ColumnRange columns_in(float lo, float hi, float inv_edge, int n) 
     const float limit = static_cast<float>(n);
     float first = lo * inv_edge - 0.5f;
     float last = hi * inv_edge - 0.5f;
-    first = first > -1.0f ? first : -1.0f; // keeps the conversions below in range
+    first = first > -1.0f ? first : -1.0f; // so that the conversions below do not overflow
     last = last < limit ? last : limit;
     first = first < limit ? first : limit;
     last = last > -1.0f ? last : -1.0f;
@@ -132,8 +132,8 @@ HEDDLE_INLINE ColumnRange columns_in(float lo, float hi, float inv_edge, int n) 
     return {i < 0 ? 0 : i, j > n - 1 ? n - 1 : j};
 }
 
-/// Column mask of a voxel seen along axis c, for columns within the ranges.
-/// @param on_hit  called for each patch with hits: on_hit(a0, b0, hits, depths)
+/// Returns the column mask of a voxel along axis c, for columns within the ranges.
+/// @param on_hit  called for each patch with hits: on_hit(projection, a0, b0, hits, depths)
 template <bool kDepths, typename OnHit>
 HEDDLE_INLINE std::uint64_t scan_columns(const Cylinder& k,
                                          const LatticeUnits& u,

@@ -5,7 +5,7 @@
 
 namespace heddle {
 
-/// A point or vector of as many fibers as a Real has lanes (lanes_*.h).
+/// A point or vector for each of as many fibers as a Real has lanes (lanes_*.h).
 template <typename Real>
 struct LanePoint {
     Real x, y, z;
@@ -24,13 +24,13 @@ struct LanePoint {
     }
 };
 
-/// What FiberTable holds of a fiber.
+/// The constants of a fiber in a FiberTable.
 template <typename Real>
 struct FiberConstants {
     Real radius, cos_angle, sin_angle, cos_migration, sin_migration;
 };
 
-/// Where a fiber lies, in units.
+/// Returns the position of a fiber, in units.
 /// @param loop  factor of its distance from the ply's axis; null: 1
 template <typename Real>
 HEDDLE_INLINE LanePoint<Real> fiber_point(const FiberConstants<Real>& fiber,
@@ -50,9 +50,9 @@ HEDDLE_INLINE LanePoint<Real> fiber_point(const FiberConstants<Real>& fiber,
             Real(at.center.z) + px * Real(at.u.z) + py * Real(at.v.z)};
 }
 
-/// A chord's end: a sample, moved outwards by a twelfth of its second difference. A chord between
-/// points of the curve lies inside the bend, by 2/3 of its sagitta in the mean; so moved, its mean
-/// distance from the curve is 0.
+/// The end of a chord: a sample, moved outwards by a twelfth of its second difference. A chord
+/// between points of the curve is inside the bend, by 2/3 of its sagitta on average. With moved
+/// ends its mean distance from the curve is 0.
 template <typename Real>
 struct ChordEnd {
     LanePoint<Real> at, bend; ///< bend: second difference of the samples
@@ -65,14 +65,15 @@ HEDDLE_INLINE ChordEnd<Real> chord_end(const LanePoint<Real>& before,
     return {sample - bend * Real(1.0f / 12.0f), bend};
 }
 
-/// A chord beside its start: as in Chord, and by how much the fiber's direction changes along it.
+/// A Chord without its start, and the change of the fiber's direction along it.
 template <typename Real>
 struct LaneChord {
     LanePoint<Real> dir, bend;
     Real length, before, after;
 };
 
-/// @param radius_from, radius_to  of the fiber at the ends
+/// Returns the chord between two ends.
+/// @param radius_from, radius_to  radii of the fiber at the ends
 template <typename Real>
 HEDDLE_INLINE LaneChord<Real> chord_between(const ChordEnd<Real>& from,
                                             const ChordEnd<Real>& to,
@@ -82,7 +83,7 @@ HEDDLE_INLINE LaneChord<Real> chord_between(const ChordEnd<Real>& from,
     const LanePoint<Real> d = to.at - from.at;
     const Real length = length_of(d);
     const Real inv = select(Real(0.0f) < length, Real(1.0f) / length, Real(0.0f));
-    // the wedge that a turn by |bend| / length opens on the outer side of each joint
+    // the wedge on the outer side of each joint, where the direction turns by |bend| / length
     const Real wedge = half * inv;
     return {d * inv, (to.bend + from.bend) * (half * inv), length,
             length_of(from.bend) * (wedge * Real(radius_from)),

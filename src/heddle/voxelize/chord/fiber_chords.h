@@ -9,14 +9,14 @@
 
 namespace heddle {
 
-/// Largest sagitta of a chord, in units (subvoxel edges). The samples between chords are moved
-/// outwards, in yarns so that a chord's mean distance from its fiber is 0 (then at most 2/3 of
-/// this: coverage of bundles is unbiased), in single curves half as far, so that it is as long as
-/// its arc (their volume is right).
-/// [bench/results/exact.md]
+/// Largest sagitta of a chord, in units (subvoxel edges). The ends of chords are moved outwards. In
+/// yarns, the mean distance of a chord from its fiber becomes 0 (at most 2/3 of this value), so
+/// that the coverage of bundles is unbiased. In single curves they move half as far, so that a
+/// chord is as long as its arc and the volume is right. [bench/results/exact.md]
 constexpr double kChordSagitta = 1.0 / 2.0;
 
-/// @param yarn  a YarnType, or what crosses of one
+/// Returns the shape of the section of a yarn's plies.
+/// @param yarn  a YarnType or a YarnView
 template <typename Yarn>
 [[nodiscard]] HEDDLE_HD inline PlySection section_of(const Yarn& yarn) {
     if (yarn.model == YarnModel::Slice) {
@@ -30,9 +30,10 @@ template <typename Yarn>
     return s;
 }
 
-/// Chords that keep within kChordSagitta of a curve with |P''| <= bend, and within a voxel's edge.
+/// Returns the number of chords for a curve with |P''| <= bend, so that their sagitta is at most
+/// kChordSagitta and their length at most a voxel's edge.
 /// @param bend    units
-/// @param length  at least the curve's, units
+/// @param length  upper bound of the curve's length, units
 [[nodiscard]] HEDDLE_HD inline int chord_count(double bend, double length, const LatticeUnits& u) {
     const double by_bend = std::sqrt(bend / (8.0 * kChordSagitta));
     const double by_length = length / (u.n > 2 ? static_cast<double>(u.n) : 2.0);
@@ -40,9 +41,9 @@ template <typename Yarn>
     return count < 1.0 ? 1 : count > 4096.0 ? 4096 : static_cast<int>(count);
 }
 
-/// Chords of a yarn's fibers along a piece.
-/// @param cubic   the piece's
-/// @param course  the piece's
+/// Returns the number of chords of each of a yarn's fibers along a piece.
+/// @param cubic   cubic of the piece
+/// @param course  course of the piece
 [[nodiscard]] HEDDLE_HD inline int yarn_chord_count(const FiberPiece& piece,
                                                     const LocalCubic& cubic,
                                                     const YarnCourse& course,
@@ -63,14 +64,14 @@ template <typename Yarn>
     return chord_count(bend, piece.cubic.polygon_length() / u.unit, u);
 }
 
-/// Where a single curve's piece meets what is before and after it.
+/// How the piece of a single curve joins the pieces before and after it.
 struct PlainEnds {
-    bool linear = false;      ///< a polyline's: the turns below; else the cubic's own tangents
-    float turn_before = 0.0f; ///< |difference of directions| / 2 from the span before; 0: none
+    bool linear = false;      ///< a polyline with the turns below; else a cubic with its tangents
+    float turn_before = 0.0f; ///< |difference of directions| / 2 to the span before; 0: none
     float turn_after = 0.0f;
 };
 
-/// |difference of directions| / 2 between a linear span's end and its neighbour; 0 at a free end.
+/// Returns |difference of directions| / 2 of a linear span and its neighbour; 0 at a free end.
 [[nodiscard]] HEDDLE_HD inline float
 joint_turn(const CurveSetView& set, const FiberPiece& piece, bool end) {
     const std::uint64_t spans = set.span_count(piece.curve);
@@ -83,8 +84,8 @@ joint_turn(const CurveSetView& set, const FiberPiece& piece, bool end) {
     return static_cast<float>(0.5 * length(d));
 }
 
-/// Calls emit(chord) for each chord of a single round curve's piece, from its start on.
-/// @param count  of samples' intervals: chord_count(); those without length give no chord
+/// Calls emit(chord) for each chord of the piece of a single curve, from its start to its end.
+/// @param count  number of intervals, from chord_count(); intervals without length have no chord
 template <typename Emit>
 HEDDLE_INLINE void for_each_plain_chord(const LocalCubic& cubic,
                                         const YarnCourse& course,
@@ -94,7 +95,7 @@ HEDDLE_INLINE void for_each_plain_chord(const LocalCubic& cubic,
     const auto turn_from = [&](const Chord& chord, float t) {
         return length(chord.dir - normalize(cubic.derivative(t), chord.dir));
     };
-    // moved outwards as in make_chords
+    // samples are moved outwards, half as far as in make_chords()
     const float outwards = 1.0f / (24.0f * static_cast<float>(count) * static_cast<float>(count));
     const auto sample = [&](float t) {
         return cubic.at(t) - outwards * cubic.second_derivative(t);
@@ -128,8 +129,8 @@ HEDDLE_INLINE void for_each_plain_chord(const LocalCubic& cubic,
     emit(last);
 }
 
-/// The same of a piece as its geometry has it.
-/// @param cubic  the piece's
+/// Calls emit(chord) for each chord of a piece of the geometry.
+/// @param cubic  cubic of the piece
 template <typename Emit>
 HEDDLE_INLINE void for_each_plain_chord(const FiberView& fibers,
                                         const FiberPiece& piece,
@@ -148,7 +149,7 @@ HEDDLE_INLINE void for_each_plain_chord(const FiberView& fibers,
     for_each_plain_chord(cubic, fibers.course(piece, u.unit), ends, count, emit);
 }
 
-/// The path of a hair flyaway about its yarn's piece, in chords.
+/// The path of a hair flyaway along a piece of its yarn, as chords.
 struct HairPath {
     const LocalCubic& cubic;
     const YarnCourse& course;

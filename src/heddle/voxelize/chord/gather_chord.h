@@ -9,21 +9,21 @@
 
 namespace heddle {
 
-/// A straight piece of fiber, in units, relative to the corner of the voxel `anchor`.
+/// A straight piece of fiber, in units relative to the corner of the voxel `anchor`.
 struct Chord {
     Vec3f start;
     Vec3f dir;        ///< unit
     float length = 0; ///< > 0
-    float before = 0; ///< the round body goes on this far before the start and after the end, which
-    float after = 0;  ///< closes the wedge that a bend opens on its outer side
+    float before = 0; ///< extension of the cylinder before the start, and after the end, which
+    float after = 0;  ///< closes the wedge on the outer side of a bend
     float radius = 0; ///< > 0
 };
 
-/// Thicker than this, a fiber's directions are spread over the subvoxels it fills; thinner, along
-/// its centreline, which then is never far from what it fills. Units.
+/// Largest radius of a thin fiber, units. The directions of thin fibers are pooled along the
+/// centreline, those of thicker fibers over the subvoxels that they fill.
 constexpr float kThickRadius = 2.0f;
 
-/// Part of the axial range in which the line origin + s dir lies within a voxel grown by `grow`.
+/// The part of the axial range where the line origin + s dir is inside a voxel grown by `grow`.
 struct AxialRange {
     float enter, leave;
 };
@@ -40,7 +40,7 @@ clip_to_voxel(Vec3f origin, Vec3f inv_dir, Vec3f voxel, float grow, AxialRange r
     return range;
 }
 
-/// The flat ends of a cylinder, as they cut columns along z.
+/// Clips columns along z at the flat ends of a cylinder.
 class FlatEnds {
 public:
     HEDDLE_INLINE FlatEnds(const LatticeUnits& u, const ColumnProjection& v) : u_(u), v_(v) {
@@ -48,14 +48,14 @@ public:
         horizontal_ = step < 1e-6f && step > -1e-6f;
         inv_step_ = 1.0f / (horizontal_ ? 1.0f : step);
     }
-    /// Subvoxels of a column of the voxel whose centres lie between the ends; empty: last < first.
+    /// Returns the subvoxels of column (x, y) with centres between the ends; empty: last < first.
     HEDDLE_INLINE ColumnRange subvoxels_of(int x, int y) const {
         constexpr ColumnRange kNone{0, -1};
         const auto most = static_cast<float>(u_.n);
         const float qa = (static_cast<float>(x) + 0.5f) * v_.ea - v_.oa;
         const float qb = (static_cast<float>(y) + 0.5f) * v_.eb - v_.ob;
         const float axial =
-            qa * v_.da + qb * v_.db + (0.5f * u_.edge.z - v_.oc) * v_.dc; // of subvoxel 0
+            qa * v_.da + qb * v_.db + (0.5f * u_.edge.z - v_.oc) * v_.dc; // for subvoxel 0
         if (horizontal_ && (axial < v_.lo || axial > v_.hi)) return kNone;
         const float end0 = horizontal_ ? -1.0f : (v_.lo - axial) * inv_step_;
         const float end1 = horizontal_ ? most : (v_.hi - axial) * inv_step_;
@@ -72,10 +72,10 @@ private:
     float inv_step_;
 };
 
-/// Sets the subvoxels whose centres lie in the cylinder, from a patch of columns along z: a run in
-/// each.
+/// Sets the bits of the subvoxels with centres in the cylinder: a run in each column of a patch
+/// along z.
 /// @param sums  has or_subvoxels(cell, word, bits)
-/// @return      subvoxels in the runs
+/// @return      number of subvoxels in the runs
 template <typename Sums>
 HEDDLE_INLINE int mark_subvoxels(const Sums& sums,
                                  int cell,
@@ -105,7 +105,8 @@ HEDDLE_INLINE int mark_subvoxels(const Sums& sums,
     return marked;
 }
 
-/// Adds `weight` (units^2, at least kGrazeWeight) of directions and the fiber's colour.
+/// Adds directions and the fiber's colour to the sums, with a weight in units^2 of at least
+/// kGrazeWeight.
 /// @param sums    has add_lobe(cell, field, x), see LobeField; has_maps(); add_map(cell, field, x),
 ///                see MapField
 /// @param moment  second moment of the directions, trace 1: xx yy zz xy xz yz
@@ -122,25 +123,25 @@ pool_fiber(const Sums& sums, int cell, const float* moment, float weight, std::u
     for (int i = 0; i < 3; ++i) {
         sums.add_map(cell, MapField::Albedo + i, area * ((color >> (8 * i)) & 0xff));
     }
-    // a fiber's material has no such maps: its own numbers, unchanged
+    // fiber materials have no such maps: the factors are 1
     sums.add_map(cell, MapField::Roughness, 255 * area);
     sums.add_map(cell, MapField::Metalness, 255 * area);
     sums.add_map(cell, MapField::Anisotropy, 255 * area);
 }
 
-/// Second moment of one direction: xx yy zz xy xz yz.
+/// The second moment of one direction: xx yy zz xy xz yz.
 struct DirectionMoment {
     float v[6];
     HEDDLE_INLINE explicit DirectionMoment(Vec3f d)
         : v{d.x * d.x, d.y * d.y, d.z * d.z, d.x * d.y, d.x * d.z, d.y * d.z} {}
 };
 
-/// scan_columns() without a use for depths.
+/// An `on_hit` of scan_columns() that does nothing.
 struct IgnoreHits {
     HEDDLE_INLINE void
     operator()(const ColumnProjection&, int, int, std::uint32_t, const PatchDepths&) const {}
 };
-/// Marks the subvoxels of the columns that scan_columns() finds, and counts them.
+/// An `on_hit` of scan_columns() that sets the bits of subvoxels and counts them.
 template <typename Sums>
 struct MarkHits {
     const Sums& sums;
@@ -180,19 +181,19 @@ HEDDLE_INLINE void gather_voxel(const Sums& sums,
     if (mx != 0) sums.or_column(cell, 0, mx);
     if (my != 0) sums.or_column(cell, 1, my);
     if (mz != 0) sums.or_column(cell, 2, mz);
-    // directed area, the projection 2 r L = (pi r^2 L) x 2 / (pi r), goes with the volume of the
-    // subvoxels that it fills
+    // directed area, the projection 2 r L = (pi r^2 L) x 2 / (pi r), is proportional to the volume
+    // of the subvoxels that the chord fills
     const float volume = u.edge.x * u.edge.y * u.edge.z;
     const float weight = 0.63661977f * volume / k.radius * static_cast<float>(mark.marked);
     sums.pool(cell, DirectionMoment(k.dir).v, weight);
 }
 
-/// Voxels [lo, hi] of a block.
+/// The voxels [lo, hi] of a block.
 struct ReachedVoxels {
     Vec3i lo, hi;
 };
-/// Those that the box of a chord's round body touches.
-/// @param anchor  the voxel that the chord is relative to, relative to the block's lo
+/// Returns the voxels that the box of a chord's cylinder touches.
+/// @param anchor  voxel that the chord's positions are relative to, relative to the block's lo
 HEDDLE_INLINE ReachedVoxels voxels_reached(const Chord& chord,
                                            Vec3i anchor,
                                            const LatticeUnits& u,
@@ -211,7 +212,7 @@ HEDDLE_INLINE ReachedVoxels voxels_reached(const Chord& chord,
     return out;
 }
 
-/// 1 / d per axis, finite.
+/// Returns 1 / d per axis, finite also for 0.
 HEDDLE_INLINE Vec3f inverse_of(Vec3f d) {
     Vec3f out;
     for (int a = 0; a < 3; ++a) {
@@ -221,9 +222,9 @@ HEDDLE_INLINE Vec3f inverse_of(Vec3f d) {
     return out;
 }
 
-/// Adds a chord thicker than kThickRadius to the voxels of a block that its round body meets.
-/// @param sums    as FiberSums
-/// @param size    of the block, voxels
+/// Adds a chord thicker than kThickRadius to the voxels of a block that its cylinder intersects.
+/// @param sums    has the functions of FiberSums
+/// @param size    size of the block, voxels
 /// @param anchor  as for voxels_reached()
 template <typename Sums>
 HEDDLE_INLINE void gather_chord(

@@ -1,5 +1,4 @@
-// One number at a time, for host and device: the names of lanes_portable.h, and bit for bit the
-// results.
+// Lanes of one number, for host and device, with the names of lanes_portable.h and the same bits.
 #pragma once
 
 #include <heddle/base/platform.h>
@@ -79,12 +78,12 @@ HEDDLE_INLINE Int select(Mask m, Int a, Int b) {
 HEDDLE_INLINE Real to_real(Int a) {
     return Real(static_cast<float>(a.v));
 }
-HEDDLE_INLINE Int to_int(Real a) { // what AVX2 gives outside of int
+HEDDLE_INLINE Int to_int(Real a) { // out of range: as AVX2
     const bool fits = a.v >= -2147483648.0f && a.v < 2147483648.0f;
     return Int(fits ? static_cast<std::int32_t>(a.v) : INT32_MIN);
 }
 
-/// What templates over lanes take.
+/// The argument of templates over lanes.
 struct Lanes {
     using Real = one::Real;
     using Int = one::Int;

@@ -11,12 +11,12 @@
 
 namespace heddle {
 
-/// What pieces of spans are at most long, units: half a block, so that a long hair visits the
-/// blocks along it and not those of its box, and single precision resolves 1e-5 of a subvoxel
-/// beside a piece's anchor.
+/// Largest length of a piece of a span, in units: half a block. So a long hair visits the blocks
+/// along it and not all blocks of its box, and single precision resolves 1e-5 of a subvoxel near a
+/// piece's anchor.
 constexpr double kPieceUnits = 128.0;
 
-/// The same in scene units: what a voxelizer's FiberSource is made with.
+/// Returns kPieceUnits in scene units, the piece length of the voxelizer's FiberSource.
 [[nodiscard]] inline double piece_length_of(const LatticeUnits& units) {
     return kPieceUnits * units.unit;
 }
@@ -33,24 +33,25 @@ struct LocalCubic : PowerCubic<float> {
             for (int i = 1; i < 4; ++i) c[i][a] = static_cast<float>(cubic.c[i][a] / u.unit);
         }
     }
-    /// Largest |P''|: linear in t, so at one of the ends.
+    /// Returns the largest |P''|. P'' is linear in t, so the largest is at one of the ends.
     [[nodiscard]] HEDDLE_HD float bend() const {
         return std::max(length(second_derivative(0.0f)), length(second_derivative(1.0f)));
     }
 };
 
-/// A yarn's cross-section at one place, units; what its plies' frames are made of.
+/// A yarn's cross-section at one point, in units, from which the frames of its plies are computed.
 struct YarnFrame : YarnSection<float> {
-    SinCos ply;                  ///< turned by so much since the yarn's start
-    SinCos fiber{}, migration{}; ///< the same, once twist() was called
+    SinCos ply;                  ///< angle since the yarn's start
+    SinCos fiber{}, migration{}; ///< angles since the yarn's start, set by twist()
 
     HEDDLE_HD YarnFrame(const LocalCubic& cubic, const YarnCourse& course, float t)
         : YarnSection(cubic, course, t), ply(sincos_turns(course.ply_turns(s))) {}
-    /// Sets what fibers need beside their ply's frame.
+    /// Sets the angles that fibers need in addition to their ply's frame.
     HEDDLE_HD void twist(const YarnCourse& course) {
         fiber = sincos_turns(course.turns_per_length[1] * s);
         migration = sincos_turns(course.turns_per_length[2] * s);
     }
+    /// Returns the frame of a ply.
     /// @param base  angle of the ply at the yarn's start
     [[nodiscard]] HEDDLE_HD PlyFrame of_ply(SinCos base) const {
         const float c = (base.cos * ply.cos - base.sin * ply.sin) * scale;

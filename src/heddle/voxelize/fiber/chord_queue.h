@@ -8,7 +8,7 @@
 
 namespace heddle {
 
-/// Plain chords that wait until there are enough for the lanes.
+/// Collects chords of single curves until there are enough to fill the lanes.
 class ChordQueue {
 public:
     static constexpr int kMax = 64;

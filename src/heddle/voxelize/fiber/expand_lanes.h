@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <span>
 
-// The fibers of a yarn from their table, as many at once as lanes L have (lanes_*.h).
+// Expands the fibers of a yarn from their table, as many at once as the lanes L have (lanes_*.h).
 
 namespace heddle {
 
@@ -37,7 +37,7 @@ inline void expand_sample(FiberTile& tile,
     }
 }
 
-/// Chords between samples, which are moved to be the chords' ends.
+/// Computes the chords between samples and moves the samples to the ends of the chords.
 template <typename L>
 inline void make_chords(FiberTile& tile, int f) {
     using Real = typename L::Real;
@@ -85,7 +85,7 @@ inline void expand_with(FiberTile& tile,
     using namespace lane_detail;
     for (int j = 0; j < tile.chords + 3; ++j) {
         std::size_t row = 0;
-        // a part's last lanes are overwritten by the next's first
+        // the excess lanes of a part are overwritten by the next part
         for (const PlyPart& part : parts) {
             expand_sample<L>(tile, j, row, part, section, table);
             row += part.end - part.begin;

@@ -9,24 +9,23 @@
 
 namespace heddle {
 
-/// What a fiber leaves in the voxels that it passes.
+/// The material and colour that a fiber adds to the voxels that it crosses.
 struct FiberPaint {
     std::uint32_t material = 0;
-    std::uint32_t color = 0xffffff; ///< linear RGB, goes to the map sums where there are some
+    std::uint32_t color = 0xffffff; ///< linear RGB, added to the map sums if there are any
     bool last = false;              ///< FitMode::Last: replaces the direction instead of pooling
 };
 
-/// Where chords go: what all of a run share.
+/// The block that chords are added to, and what they share.
 struct GatherTarget {
     BlockSums& block;
     const LatticeUnits& units;
     int shift;  ///< log2 of the subvoxels per axis
-    Vec3i size; ///< of the block
+    Vec3i size; ///< size of the block, voxels
     FiberPaint paint;
 };
 
-/// Sums of one voxel's lobe, and of its maps where there are some (else null), as pool_fiber()
-/// adds.
+/// The sums of one voxel's lobe for pool_fiber(), and its map sums, or null if there are none.
 struct LobeAdder {
     LobeSums& lobe;
     MapSums* maps;
@@ -40,7 +39,7 @@ struct LobeAdder {
     }
 };
 
-/// Pools directions in a voxel of a block: pool_fiber(), or with FitMode::Last in its place.
+/// Pools directions in a voxel of a block by pool_fiber(); with FitMode::Last, replaces them.
 HEDDLE_HOST_INLINE void pool_moment(BlockSums& block,
                                     VoxelSums& voxel,
                                     const float* moment,
@@ -56,8 +55,8 @@ HEDDLE_HOST_INLINE void pool_moment(BlockSums& block,
     pool_fiber(LobeAdder{lobe, maps}, 0, moment, weight, paint.color);
 }
 
-/// What fibers of one material write to, over a block of the CPU: DenseSums is its twin on the
-/// device.
+/// The sums of a block on the CPU that fibers of one material write to. DenseLobe is the
+/// counterpart on the device.
 struct FiberSums {
     BlockSums& block;
     const FiberPaint& paint;

@@ -1,4 +1,4 @@
-// The one file that is compiled for AVX2: gather_kernels.cpp calls it where the machine has that.
+// The only file that is compiled for AVX2. gather_kernels.cpp calls it if the machine has AVX2.
 #include <heddle/voxelize/fiber/gather_kernels.h>
 
 #include <heddle/voxelize/fiber/expand_lanes.h>

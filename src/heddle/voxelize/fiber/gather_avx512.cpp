@@ -1,5 +1,5 @@
-// The only file that is compiled for AVX-512: gather_kernels.cpp calls it where the machine has
-// that.
+// The only file that is compiled for AVX-512. gather_kernels.cpp calls it if the machine has
+// AVX-512.
 #include <heddle/voxelize/fiber/gather_kernels.h>
 
 #include <heddle/voxelize/fiber/lanes_avx512.h>

@@ -15,11 +15,11 @@
 namespace heddle {
 namespace {
 
-/// Where the chords of a piece go.
+/// The piece whose chords are added, and the block.
 struct PieceTarget {
     GatherTarget block;
-    Vec3i anchor;                      ///< of the piece, relative to the block's lo
-    std::uint32_t part = 0, parts = 1; ///< the piece, of its span
+    Vec3i anchor;                      ///< anchor of the piece, relative to the block's lo
+    std::uint32_t part = 0, parts = 1; ///< number of the piece in its span
 };
 
 HEDDLE_CLONES void gather_thick(const Chord& chord, Vec3i anchor, const GatherTarget& t) {
@@ -33,7 +33,7 @@ struct FiberGatherer::Impl {
     LatticeUnits units;
     GatherOptions options;
     bool mask;        ///< CoverageMode::Mask
-    FiberTable table; ///< of the yarn below
+    FiberTable table; ///< fibers of the yarn below
     std::uint32_t table_set = ~0u;
     std::uint64_t table_curve = ~std::uint64_t{0};
     FiberTile tile;
@@ -310,7 +310,7 @@ void FiberGatherer::gather(std::span<const PieceId> pieces,
                            const Progress& progress) {
     Impl& state = *impl_;
     const bool last = state.options.fit == FitMode::Last;
-    std::uint32_t set = 0; // of the chords that wait
+    std::uint32_t set = 0; // set of the queued chords
     std::size_t done = 0;
     for (const PieceId id : pieces) {
         if (done++ % 64 == 0) progress.check();
@@ -318,7 +318,7 @@ void FiberGatherer::gather(std::span<const PieceId> pieces,
         if (piece.set != set) state.queue.flush(state.target_of(set, block));
         set = piece.set;
         state.gather_piece(piece, block);
-        // which of two chords is the last must not depend on what else the block holds
+        // which of two chords is the last must not depend on the other contents of the block
         if (last) state.queue.flush(state.target_of(set, block));
     }
     if (!pieces.empty()) state.queue.flush(state.target_of(set, block));

@@ -13,8 +13,8 @@
 
 namespace heddle {
 
-/// Expands yarns to fibers and adds them to blocks. One per thread: it keeps the last yarn's
-/// fibers.
+/// Expands yarns to fibers and adds them to blocks. Each thread needs its own: it caches the fibers
+/// of the last yarn.
 class FiberGatherer {
 public:
     FiberGatherer(const FiberSource& source,

@@ -10,14 +10,14 @@
 
 namespace heddle {
 
-/// Straight pieces of fibers as arrays, for eight or sixteen at once. Arrays hold whole sixteens:
-/// what lies behind `count` is read, and counts for nothing.
+/// Straight pieces of fibers as arrays, for eight or sixteen at once. Arrays are padded to a
+/// multiple of 16; elements past `count` are read but ignored.
 struct ChordArrays {
     const float* start[3]; ///< units, relative to the corner of the voxel `anchor`
     const float* dir[3];   ///< unit
-    const float* bend[3];  ///< by how much the fiber's direction changes along the chord
-    const float* length;   ///< > 0; else no chord
-    const float* before;   ///< as in Chord
+    const float* bend[3];  ///< change of the fiber's direction along the chord
+    const float* length;   ///< > 0; else there is no chord
+    const float* before;   ///< see Chord
     const float* after;
     const float* radius;           ///< at most kThickRadius
     const std::int32_t* anchor[3]; ///< relative to the block's lo
@@ -25,20 +25,18 @@ struct ChordArrays {
     int count = 0;
 };
 
-/// Adds thin chords to the voxels that they meet: eight or sixteen at once, column by column along
-/// each.
-/// The same bits with AVX-512, AVX2 and neither; the first that the machine has is used.
+/// Adds thin chords to the voxels that they intersect, eight or sixteen at once, column by column.
+/// Uses AVX-512 if the machine has it, else AVX2, else neither; the results have the same bits.
 void gather_thin(const ChordArrays& chords, const GatherTarget& target);
 
-/// Fills a tile with the fibers of `parts`, whose number is tile.fibers, at tile.chords + 3
-/// samples.
-/// The same bits with and without AVX2.
+/// Fills a tile with the fibers of `parts`, tile.fibers in total, at tile.chords + 3 samples. The
+/// result has the same bits with and without AVX2.
 void expand_fibers(FiberTile& tile,
                    std::span<const PlyPart> parts,
                    const PlySection& section,
                    const FiberTable& table);
 
-/// What the two above choose from; avx2 and avx512 are there where HEDDLE_WITH_AVX2 is 1.
+/// The implementations of both functions; avx2 and avx512 exist only if HEDDLE_WITH_AVX2 is 1.
 namespace portable {
 void gather(const ChordArrays& chords, const GatherTarget& target);
 void expand(FiberTile& tile,

@@ -89,8 +89,8 @@ void expect_same_sums(const BlockSums& a, const BlockSums& b) {
 }
 
 #if HEDDLE_WITH_AVX2
-/// Expects that `gather` finds in random chords, of which the last three count for nothing, what
-/// plain code finds.
+/// Expects that `gather` gives the same sums as plain code for random chords. The last three chords
+/// are past `count` and must be ignored.
 void expect_bits_of_plain_code(void (*gather)(const ChordArrays&, const GatherTarget&)) {
     const RandomChords chords(7);
     ChordArrays most = chords.arrays();

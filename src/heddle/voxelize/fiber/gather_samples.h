@@ -7,17 +7,16 @@
 
 namespace heddle {
 
-/// How CoverageMode::Mask samples a span: where a chord lies on it.
+/// How CoverageMode::Mask samples a span, and the position of a chord on it.
 struct SpanSamples {
-    std::int64_t count = 0; ///< over the whole span; 0: two a subvoxel
-    double begin = 0.0;     ///< of the chord, as a fraction of the span
+    std::int64_t count = 0; ///< samples of the whole span; 0: two per subvoxel
+    double begin = 0.0;     ///< start and end of the chord as fractions of the span
     double end = 1.0;
 };
 
-/// Adds points on a chord's axis to the subvoxels that hold them, and its direction to their
-/// voxels: a sampling voxelizer without the fiber's thickness                          [Fabre26,
-/// 3.2 to 3.4]
-/// @param anchor  voxel that the chord is relative to, relative to the block's lo
+/// Sets the subvoxels of sample points on a chord's axis, and pools its direction in their voxels,
+/// as a sampling voxelizer that ignores the fiber's thickness does [Fabre26, 3.2 to 3.4]
+/// @param anchor  voxel that the chord's positions are relative to, relative to the block's lo
 inline void gather_samples(const Chord& chord,
                            Vec3i anchor,
                            const GatherTarget& target,

@@ -1,5 +1,5 @@
-// Eight numbers at once, for files that are compiled for AVX2: the same names, and bit for bit the
-// same results, as lanes_portable.h.
+// Lanes of eight numbers, for files that are compiled for AVX2, with the names of lanes_portable.h
+// and results of the same bits.
 #pragma once
 
 #include <heddle/voxelize/fiber/set_lanes.h>
@@ -16,9 +16,9 @@ struct Mask {
     __m256 v;
     friend Mask operator&(Mask a, Mask b) { return {_mm256_and_ps(a.v, b.v)}; }
     friend Mask operator|(Mask a, Mask b) { return {_mm256_or_ps(a.v, b.v)}; }
-    /// a and not b.
+    /// Returns a and not b.
     friend Mask without(Mask a, Mask b) { return {_mm256_andnot_ps(b.v, a.v)}; }
-    /// Bit l: lane l.
+    /// Returns bit l for lane l.
     [[nodiscard]] std::uint32_t bits() const {
         return static_cast<std::uint32_t>(_mm256_movemask_ps(v));
     }
@@ -40,7 +40,7 @@ struct Int {
     friend Int operator&(Int a, Int b) { return _mm256_and_si256(a.v, b.v); }
     friend Int operator|(Int a, Int b) { return _mm256_or_si256(a.v, b.v); }
     friend Int operator<<(Int a, int n) { return _mm256_slli_epi32(a.v, n); }
-    /// Towards minus infinity.
+    /// Rounds towards minus infinity.
     friend Int operator>>(Int a, int n) { return _mm256_srai_epi32(a.v, n); }
     friend Mask operator==(Int a, Int b) {
         return {_mm256_castsi256_ps(_mm256_cmpeq_epi32(a.v, b.v))};
@@ -100,7 +100,7 @@ inline Int select(Mask m, Int a, Int b) {
 inline Real to_real(Int a) {
     return _mm256_cvtepi32_ps(a.v);
 }
-/// Towards 0; anything outside of int gives anything.
+/// Rounds towards 0. The result for values outside the range of int is unspecified.
 inline Int to_int(Real a) {
     return _mm256_cvttps_epi32(a.v);
 }
@@ -135,14 +135,14 @@ inline void store_transposed(const Real (&r)[8], float (&out)[kLanes][8]) {
     }
 }
 
-/// What templates over lanes take.
+/// The argument of templates over lanes.
 struct Lanes {
     using Real = avx2::Real;
     using Int = avx2::Int;
     using Mask = avx2::Mask;
 
     static constexpr int kLanes = avx2::kLanes;
-    /// The lanes of a mask's set bits, in order.
+    /// Returns the lane numbers of a mask's set bits, in order.
     static Int set_lanes(std::uint32_t mask) {
         return _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(kSetLanes[mask])));
     }

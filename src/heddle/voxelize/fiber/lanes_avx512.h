@@ -1,5 +1,5 @@
-// Sixteen numbers at once, for files that are compiled for AVX-512: the same names, and bit for bit
-// the same results, as lanes_portable.h.
+// Lanes of sixteen numbers, for files that are compiled for AVX-512, with the names of
+// lanes_portable.h and results of the same bits.
 #pragma once
 
 #include <immintrin.h>
@@ -14,9 +14,9 @@ struct Mask {
     __mmask16 v;
     friend Mask operator&(Mask a, Mask b) { return {_kand_mask16(a.v, b.v)}; }
     friend Mask operator|(Mask a, Mask b) { return {_kor_mask16(a.v, b.v)}; }
-    /// a and not b.
+    /// Returns a and not b.
     friend Mask without(Mask a, Mask b) { return {_kandn_mask16(b.v, a.v)}; }
-    /// Bit l: lane l.
+    /// Returns bit l for lane l.
     [[nodiscard]] std::uint32_t bits() const { return _cvtmask16_u32(v); }
 };
 
@@ -36,7 +36,7 @@ struct Int {
     friend Int operator&(Int a, Int b) { return _mm512_and_si512(a.v, b.v); }
     friend Int operator|(Int a, Int b) { return _mm512_or_si512(a.v, b.v); }
     friend Int operator<<(Int a, int n) { return _mm512_sll_epi32(a.v, _mm_cvtsi32_si128(n)); }
-    /// Towards minus infinity.
+    /// Rounds towards minus infinity.
     friend Int operator>>(Int a, int n) { return _mm512_sra_epi32(a.v, _mm_cvtsi32_si128(n)); }
     friend Mask operator==(Int a, Int b) { return {_mm512_cmpeq_epi32_mask(a.v, b.v)}; }
     friend Mask operator>(Int a, Int b) { return {_mm512_cmpgt_epi32_mask(a.v, b.v)}; }
@@ -92,7 +92,7 @@ inline Int select(Mask m, Int a, Int b) {
 inline Real to_real(Int a) {
     return _mm512_cvtepi32_ps(a.v);
 }
-/// Towards 0; anything outside of int gives anything.
+/// Rounds towards 0. The result for values outside the range of int is unspecified.
 inline Int to_int(Real a) {
     return _mm512_cvttps_epi32(a.v);
 }
@@ -113,14 +113,14 @@ inline void store_transposed(const Real (&r)[8], float (&out)[kLanes][8]) {
     for (int i = 0; i < 8; ++i) _mm512_i32scatter_ps(&out[0][i], place, r[i].v, 4);
 }
 
-/// What templates over lanes take.
+/// The argument of templates over lanes.
 struct Lanes {
     using Real = avx512::Real;
     using Int = avx512::Int;
     using Mask = avx512::Mask;
 
     static constexpr int kLanes = avx512::kLanes;
-    /// The lanes of a mask's set bits, in order; then 0.
+    /// Returns the lane numbers of a mask's set bits, in order, followed by zeros.
     static Int set_lanes(std::uint32_t mask) {
         return _mm512_maskz_compress_epi32(_cvtu32_mask16(mask), Int::iota().v);
     }

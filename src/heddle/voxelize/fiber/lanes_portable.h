@@ -1,5 +1,5 @@
-// Eight numbers at once, in plain C++: the same names, and bit for bit the same results, as
-// lanes_avx2.h.
+// Lanes of eight numbers in plain C++, with the names of lanes_avx2.h and results of the same
+// bits.
 #pragma once
 
 #include <heddle/voxelize/fiber/set_lanes.h>
@@ -146,7 +146,7 @@ inline Real to_real(Int a) {
     return detail::each<Real>([&](int l) { return static_cast<float>(a.v[l]); });
 }
 inline Int to_int(Real a) {
-    return detail::each<Int>([&](int l) { // what AVX2 gives outside of int
+    return detail::each<Int>([&](int l) { // out of range: as AVX2
         const bool fits = a.v[l] >= -2147483648.0f && a.v[l] < 2147483648.0f;
         return fits ? static_cast<std::int32_t>(a.v[l]) : INT32_MIN;
     });
@@ -166,7 +166,7 @@ inline void store_transposed(const Real (&r)[8], float (&out)[kLanes][8]) {
     }
 }
 
-/// What templates over lanes take.
+/// The argument of templates over lanes.
 struct Lanes {
     using Real = portable::Real;
     using Int = portable::Int;

@@ -6,13 +6,14 @@
 #include <bit>
 #include <cstdint>
 
-// The columns that thin chords meet, as many at once as lanes L have (lanes_*.h), along one axis.
+// Finds the columns along one axis that thin chords cover, as many at once as the lanes L have
+// (lanes_*.h).
 
 namespace heddle {
 
 namespace lane_detail {
 
-/// Columns that may be met: the chord's lane and the column's indices along major and minor.
+/// Columns that may be covered: the chord's lane and the column's indices along major and minor.
 template <typename L>
 struct Candidates {
     using Real = typename L::Real;
@@ -30,9 +31,9 @@ struct Candidates {
     }
 };
 
-/// Sets a column's bit in each hit lane's voxel, and for z a run of its subvoxels: for all lanes
-/// where most hit, the others in voxels that nobody reads (no branch to guess wrong), else hits
-/// first and for half as many.
+/// Sets a column's bit in the voxel of each lane that hits, and along z the bits of a run of
+/// subvoxels. If more than half of the lanes hit, all lanes are written; misses go to scratch
+/// voxels, which avoids a branch. Otherwise hits are compacted and half of the lanes are written.
 /// @param packed  cell | bit << 16
 /// @param run     first subvoxel's bit | length << 9
 template <typename L, int kDepth>
@@ -47,7 +48,7 @@ inline void set_columns(BlockSums::VoxelTable voxels,
     packed = select(hits, packed, Int::iota() + Int(BlockSums::kVoxels));
     const std::uint32_t mask = hits.bits();
     const bool few = std::popcount(mask) <= kLanes / 2;
-    if (few) { // lane 0 fills up: setting its bits again changes nothing
+    if (few) { // repeats of lane 0 fill the rest: setting its bits again has no effect
         const Int order = L::set_lanes(mask);
         packed = pick(packed, order);
         run = pick(run, order);
@@ -68,7 +69,7 @@ inline void set_columns(BlockSums::VoxelTable voxels,
     for (int l = kLanes / 2; l < kLanes; ++l) set(l);
 }
 
-/// Names a direction in voxels that chords meet beside their centrelines.
+/// Pools a small weight of the direction in voxels that chords touch beside their centrelines.
 template <typename L>
 inline void graze(const LaneBlock<L>& b,
                   const LaneChords<L>& k,
@@ -85,7 +86,7 @@ inline void graze(const LaneBlock<L>& b,
     }
 }
 
-/// Tests the candidates and sets what they meet.
+/// Tests the candidates and sets the bits of those that hit.
 template <typename L, int kDepth>
 inline void mark_candidates(const LaneBlock<L>& b,
                             const LaneChords<L>& k,
@@ -128,7 +129,7 @@ inline void mark_candidates(const LaneBlock<L>& b,
     }
 }
 
-/// Sets the columns along axis kDepth that the chords meet, and for z the subvoxels.
+/// Sets the bits of the columns along axis kDepth that the chords cover, and along z of subvoxels.
 template <typename L, int kDepth>
 inline void mark_columns(const LaneBlock<L>& b, const LaneChords<L>& k) {
     using Real = typename L::Real;
@@ -137,14 +138,14 @@ inline void mark_columns(const LaneBlock<L>& b, const LaneChords<L>& k) {
     const ChordProjection<L> v = project_along<L, kDepth>(k, b.target.units);
     Candidates<L> list;
     const auto flush = [&] {
-        Int(0).store(list.lane + list.count); // the last eight are read whole
+        Int(0).store(list.lane + list.count); // pads the last group of lanes
         Real(0.0f).store(list.i + list.count);
         Real(0.0f).store(list.j + list.count);
         mark_candidates<L, kDepth>(b, k, v, list);
         list.count = 0;
     };
-    // columns along minor that can lie in the strip: alike in all batches, so no branch is guessed
-    // wrong
+    // largest number of columns along minor in a strip, the same for all rows to avoid
+    // mispredictions
     int tries = 1;
     while ((k.active & (Real(static_cast<float>(tries)) < v.width)).bits() != 0) ++tries;
     Real i = v.first;
@@ -186,7 +187,7 @@ inline void gather_with(const ChordArrays& chords, const GatherTarget& target) {
         k.after = Real::load(chords.after + at);
         k.radius = Real::load(chords.radius + at);
         k.color = chords.color + at;
-        // the arrays hold whole sixteens, the last of them anything
+        // the arrays are padded to a multiple of 16 with unspecified values
         k.active = meets_block<L>(k, anchor, target.units, target.size) &
                    (Int(chords.count - at) > Int::iota());
         if (k.active.bits() == 0) continue;

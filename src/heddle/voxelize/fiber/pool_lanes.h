@@ -6,19 +6,19 @@
 #include <bit>
 #include <cstdint>
 
-// Directions of thin chords, as many at once as lanes L have (lanes_*.h), into the voxels that
-// their centrelines pass.
+// Pools the directions of thin chords in the voxels that their centrelines cross, as many at once
+// as the lanes L have (lanes_*.h).
 
 namespace heddle::lane_detail {
 
-/// A chord a lane, as bodies over lanes have them; and what only writing their sums needs.
+/// One chord per lane, and what is needed to write their sums.
 template <typename L>
 struct LaneChords : ChordLanes<L> {
     alignas(32) float moment[L::kLanes][8]; ///< per chord: xx yy zz xy xz yz of its direction, 1, 0
     const std::uint32_t* color;
 };
 
-/// The block, as the lanes see it.
+/// The block that the chords are added to.
 template <typename L>
 struct LaneBlock : BlockWords<L> {
     const GatherTarget& target;
@@ -29,7 +29,7 @@ struct LaneBlock : BlockWords<L> {
     [[nodiscard]] VoxelSums& voxel(std::uint32_t cell) const { return target.block.voxel_at(cell); }
 };
 
-/// Pools the direction of chord `lane`, `weight` in units^2.
+/// Pools the direction of chord `lane`, with a weight in units^2.
 template <typename L>
 inline void pool_lane(
     const LaneBlock<L>& b, const LaneChords<L>& k, int lane, std::uint32_t cell, float weight) {
@@ -51,8 +51,8 @@ inline void set_moments(LaneChords<L>& k, const typename L::Real (&bend)[3]) {
     store_transposed(rows, k.moment);
 }
 
-/// Pools every chord's direction, by the directed area 2 r length, in each voxel that its
-/// centreline passes.
+/// Pools every chord's direction, weighted by the directed area 2 r length, in each voxel that its
+/// centreline crosses.
 template <typename L>
 inline void pool_lanes(const LaneBlock<L>& b, LaneChords<L>& k) {
     using Real = typename L::Real;
@@ -65,7 +65,7 @@ inline void pool_lanes(const LaneBlock<L>& b, LaneChords<L>& k) {
         alignas(32) std::int32_t cell[L::kLanes];
         alignas(32) float weight[L::kLanes];
         LaneBlock<L>::cell(word).store(cell);
-        // a sliver counts as much as a graze: enough to name a direction
+        // short parts have at least the weight of a grazed voxel, so that the voxel has a direction
         max(width * length, Real(kGrazeWeight)).store(weight);
         for (std::uint32_t m = hits; m != 0; m &= m - 1) {
             const int l = std::countr_zero(m);

@@ -5,7 +5,8 @@
 
 namespace heddle {
 
-/// For each set of eight lanes their numbers in order, a byte each, lowest first.
+/// For each mask of eight lanes: the numbers of its set lanes in order, one byte each, lowest
+/// first.
 inline constexpr std::array<std::uint64_t, 256> kSetLanes = [] {
     std::array<std::uint64_t, 256> table{};
     for (std::uint32_t mask = 0; mask < 256; ++mask) {

@@ -14,16 +14,16 @@
 
 namespace heddle {
 
-// Height maps: a triangle is split into micro-triangles no longer than a subvoxel edge before they
-// are moved along the normal, and streamed.
+// Height maps: a triangle is split into micro-triangles no longer than a subvoxel edge, which are
+// moved along the normal and processed one by one.
 //
-// No cracks: an edge has as many pieces as its own length asks for, and its points are computed
-// from its two ends alone, in an order of the ends that both triangles agree on. The grid inside
-// has as many pieces as the longest edge; its border points move to the nearest point of the edge,
-// so that both sides have the same points, and a micro-triangle that this flattens has no hits.
-// That holds where both triangles have the same position, normal and uv at the ends of the edge.
-// Along a uv seam, or a hard edge with two normals at a vertex, the sides part by the difference of
-// their heights, or along their two normals.
+// There are no cracks: the number of pieces of an edge depends on its length only, and its points
+// are computed from its two ends only, in an order that is the same for both triangles. The grid
+// inside has as many pieces as the longest edge. Its border points are moved to the nearest point
+// of the edge, so that both sides have the same points; a micro-triangle that becomes flat has no
+// hits. This holds if both triangles have the same position, normal and uv at the ends of the edge.
+// Along a uv seam or a hard edge, with two normals at a vertex, the sides separate by the
+// difference of their heights or along their two normals.
 
 /// A triangle to be displaced, in scene units.
 struct DisplaceTriangle {
@@ -35,7 +35,7 @@ struct DisplaceTriangle {
 /// A piece of a displaced triangle.
 struct MicroTriangle {
     std::array<Vec3d, 3> p; ///< lattice coordinates
-    std::array<Vec3f, 3> b; ///< each corner's weights of the parent's vertices
+    std::array<Vec3f, 3> b; ///< barycentric coordinates of each corner in the parent
 };
 
 namespace displace_detail {
@@ -45,7 +45,7 @@ struct Vertex {
     Vec3f b;
 };
 
-/// One row of the grid: the columns [first, first + vertices.size()).
+/// One row of the grid, for the columns [first, first + vertices.size()).
 struct Row {
     std::int64_t first = 0;
     std::vector<Vertex> vertices;
@@ -54,7 +54,7 @@ struct Row {
     }
 };
 
-/// Columns [lo, hi]; empty if lo > hi.
+/// The columns [lo, hi]; empty if lo > hi.
 struct Range {
     std::int64_t lo = 0, hi = -1;
     [[nodiscard]] HEDDLE_HD bool empty() const { return lo > hi; }
@@ -68,7 +68,7 @@ struct Range {
 
 } // namespace displace_detail
 
-/// Rows that `displace_triangle` keeps, so that a caller's loop allocates once. One per thread.
+/// The rows of displace_triangle(), so that a caller's loop allocates once. One per thread.
 struct DisplaceScratch {
     displace_detail::Row above, below;
 };
@@ -90,7 +90,7 @@ public:
 
     [[nodiscard]] HEDDLE_HD std::int64_t rows() const { return n_; }
 
-    /// Columns of row `r` whose undisplaced points may lie within `box`.
+    /// Returns the columns of row `r` whose undisplaced points may be inside the box [lo, hi].
     [[nodiscard]] HEDDLE_HD Range columns_in(std::int64_t r, Vec3d lo, Vec3d hi) const {
         if (r < 0 || r > n_) return {};
         const double down = static_cast<double>(r) / static_cast<double>(n_);
@@ -148,7 +148,8 @@ private:
         return std::max<std::int64_t>(1, -floor_to_int(-length(edge)));
     }
 
-    /// Point `k` of `n_` along edge `e` counted from vertex `from`, moved to the edge's own points.
+    /// Returns point `k` of `n_` along edge `e`, counted from vertex `from` and moved to the
+    /// nearest of the edge's own points.
     [[nodiscard]] HEDDLE_HD std::array<double, 3>
     edge_point(int e, int from, std::int64_t k) const {
         const Edge& edge = edge_[e];
@@ -160,8 +161,9 @@ private:
         return b;
     }
 
-    /// Sum of the vertices' values. A vertex without weight is left out and two are added in either
-    /// order with the same result, so a point of an edge has one value, whoever computes it.
+    /// Returns the weighted sum of the vertices' values. Vertices with weight 0 are left out and
+    /// the order of two does not matter, so a point of an edge has the same value in both
+    /// triangles.
     template <typename Value>
     HEDDLE_HD static double blend(const std::array<double, 3>& b, const Value& value) {
         double sum = 0.0;
@@ -190,17 +192,18 @@ private:
     const DisplaceTriangle& t_;
     Vec3d size_;
     Vec3d corner_[3]; ///< lattice coordinates
-    Edge edge_[3];    ///< from vertex e to vertex e + 1, or back
+    Edge edge_[3];    ///< between vertices e and e + 1, in either direction
     std::int64_t n_ = 1;
 };
 
-/// What undisplaced points of micro-triangles that touch a box lie in; lattice coordinates.
+/// A box, in lattice coordinates, that contains the undisplaced points of all micro-triangles that
+/// touch a given box.
 struct ReachBox {
     Vec3d lo, hi;
 
     HEDDLE_HD ReachBox(const SubvoxelBox& box, double reach, Vec3d subvoxel_size) {
-        // A micro-triangle in the box has all its undisplaced corners within the reach and its own
-        // size of it: under 3 subvoxels, edge points that moved included.
+        // All undisplaced corners of a micro-triangle in the box are within the reach plus its own
+        // size of the box: under 3 subvoxels, including edge points that were moved.
         for (int a = 0; a < 3; ++a) {
             const double margin = reach / subvoxel_size[a] + 3.0;
             lo[a] = static_cast<double>(box.lo[a]) - margin;
@@ -213,8 +216,8 @@ HEDDLE_HD inline MicroTriangle micro(const Vertex& a, const Vertex& b, const Ver
     return {{a.p, b.p, c.p}, {a.b, b.b, c.b}};
 }
 
-/// Computes row `r` at the columns of a range and the next ones on either side, which its
-/// micro-triangles have corners at.
+/// Computes row `r` at the columns of a range and at one more on either side, for the corners of
+/// micro-triangles.
 template <typename Height>
 void fill_row(const Grid& grid, std::int64_t r, Range range, const Height& height, Row& row) {
     row.first = std::max<std::int64_t>(0, range.lo - 1);
@@ -225,7 +228,7 @@ void fill_row(const Grid& grid, std::int64_t r, Range range, const Height& heigh
     }
 }
 
-/// Emits the micro-triangles between row `r` and the next one, at the columns of a strip.
+/// Emits the micro-triangles between row `r` and the next row, at the columns of a strip.
 template <typename Emit>
 void emit_strip(const Row& above, const Row& below, std::int64_t r, Range strip, Emit& emit) {
     for (std::int64_t c = strip.lo; c <= std::min(r, strip.hi); ++c) {
@@ -240,9 +243,9 @@ void emit_strip(const Row& above, const Row& below, std::int64_t r, Range strip,
 /// micro-triangles that touch `box`. A micro-triangle does not depend on the box.
 ///
 /// @param subvoxel_size  scene units per axis, > 0
-/// @param reach          no height is larger (`max_displacement`), scene units
+/// @param reach          upper bound of |height|, from max_displacement(), scene units
 /// @param height         float height(Uv): distance along the normal, scene units
-/// @param scratch        two rows; at most 80 bytes x the pieces of an edge that lie near the box
+/// @param scratch        two rows; at most 80 bytes per piece of an edge near the box
 template <typename Height, typename Emit>
 void displace_triangle(const DisplaceTriangle& t,
                        Vec3d subvoxel_size,
@@ -270,11 +273,11 @@ void displace_triangle(const DisplaceTriangle& t,
     }
 }
 
-/// In place of a DisplaceScratch where there is no memory for one.
+/// Replaces a DisplaceScratch where there is no memory for one.
 struct NoScratch {};
 
-/// The same micro-triangles without scratch: a vertex is computed for the strip above it and again
-/// for the one below.
+/// Emits the same micro-triangles without scratch. Each vertex is computed twice: for the strip
+/// above it and for the strip below.
 template <typename Height, typename Emit>
 HEDDLE_HD inline void displace_triangle(const DisplaceTriangle& t,
                                         Vec3d subvoxel_size,

@@ -12,12 +12,12 @@
 
 namespace heddle {
 
-/// Adds triangles to blocks, each by add_triangle() (triangle_op.h). One per thread.
+/// Adds triangles to blocks by add_triangle() (triangle_op.h). Each thread needs its own.
 class TriangleGatherer {
 public:
     TriangleGatherer(const SurfaceSource& surfaces, const LatticeUnits& units, FitMode fit);
 
-    /// Adds what lies in the block of all the triangles.
+    /// Adds the parts of the triangles inside the block to its sums.
     /// @param triangles  with kTriangleBit set, ascending
     /// @throws Error     Cancelled
     TriangleWork

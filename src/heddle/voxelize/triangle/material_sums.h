@@ -9,14 +9,14 @@
 
 namespace heddle {
 
-/// The sums of one material in a block, as BlockTarget (surface_hits.h) asks for them.
+/// The sums of one material in a block, for BlockTarget (surface_hits.h).
 class MaterialSums {
 public:
-    /// @param last  the last hit alone counts (FitMode::Last)
+    /// @param last  true: only the last hit counts (FitMode::Last)
     HEDDLE_INLINE MaterialSums(BlockSums& block, std::uint32_t material, bool last)
         : block_(block), material_(material), last_(last), has_maps_(block.has_maps()) {}
 
-    // the voxel is kept at hand: hits that follow each other mostly lie in one
+    // the last voxel is cached, since consecutive hits are mostly in the same voxel
     HEDDLE_INLINE void or_column(int cell, int axis, std::uint64_t bits) {
         if (cell != cell_) open(cell);
         voxel_->column[static_cast<std::size_t>(axis)] |= bits;

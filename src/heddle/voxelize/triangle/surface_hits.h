@@ -14,35 +14,34 @@
 
 namespace heddle {
 
-// From a triangle's hits to the sums of a block's voxels, by one body for host and device. `Sums`
-// is where they go: the sums of one block, in which lobes are the triangle's material's. Of it is
-// asked
+// Adds a triangle's hits to the sums of a block's voxels, by the same code on host and device.
+// `Sums` is the sums of one block for the triangle's material. It has the functions
 //
 //   void or_column(int cell, int axis, std::uint64_t bits)
 //   void or_subvoxels(int cell, int word, std::uint64_t bits)      see VoxelSums
 //   void add_lobe(int cell, int field, std::int64_t x)             see LobeField
 //   void add_map(int cell, int field, std::int64_t x)              see MapField
 //   bool has_maps()
-//   bool forget(int cell)    only where the last hit alone may count: if so empties the lobe
+//   bool forget(int cell)    optional, for FitMode::Last: empties the lobe; false: other modes
 //
-// cell = (x 32 + y) 32 + z of a voxel relative to the block's lo. or_column comes first: all that
-// follows names the same cell, and a cell that is marked is given a weight.
+// cell = (x 32 + y) 32 + z of a voxel relative to the block's lo. or_column is called first; the
+// calls that follow have the same cell, and each such cell gets a weight.
 
-/// What was done for some triangles.
+/// Counts of the work for some triangles.
 struct TriangleWork {
-    std::int64_t hits = 0;    ///< centre lines met
-    std::int64_t samples = 0; ///< times that normals and maps were read
+    std::int64_t hits = 0;    ///< centre lines that were hit
+    std::int64_t samples = 0; ///< evaluations of normals and maps
 
     friend HEDDLE_HD TriangleWork operator+(TriangleWork a, TriangleWork b) {
         return {a.hits + b.hits, a.samples + b.samples};
     }
 };
 
-/// Least weight of a hit, units^2: a voxel that a surface passes edge-on still gets its direction.
-/// It adds at most a thousandth to what the other axes weigh.
+/// Smallest weight of a hit, units^2, so that a voxel that a surface crosses edge-on gets a
+/// direction. It adds at most a thousandth to the weight of the other axes.
 constexpr double kMinWeight = 1.0 / 1024.0;
 
-/// A direction's second moment times a weight, in fixed point.
+/// The second moment of a direction times a weight, in fixed point.
 struct Share {
     std::array<std::int64_t, 6> moment{};
     std::int64_t weight = 0;
@@ -63,7 +62,7 @@ HEDDLE_INLINE std::array<std::int64_t, 6> weighted_moment(Vec3f d, float weight)
             round_weight(d.x * d.z * weight), round_weight(d.y * d.z * weight)};
 }
 
-/// The weights of a triangle's hits along each axis, units^2 x kWeightScale.
+/// Returns the weight of a triangle's hits along each axis, units^2 x kWeightScale.
 HEDDLE_HD inline std::array<float, 3> hit_weights(Vec3d normal, const LatticeUnits& units) {
     std::array<float, 3> weights{};
     for (int axis = 0; axis < 3; ++axis) {
@@ -74,13 +73,13 @@ HEDDLE_HD inline std::array<float, 3> hit_weights(Vec3d normal, const LatticeUni
     return weights;
 }
 
-/// Where the hits of one material in one block go.
+/// Adds the hits of one material to the sums of one block.
 template <typename Sums>
 class BlockTarget {
 public:
     static constexpr bool kForgets = requires(Sums & s) { s.forget(0); };
 
-    /// @param lo,hi  voxels of the block, [lo, hi)
+    /// @param lo,hi  voxel range of the block, [lo, hi)
     HEDDLE_HD BlockTarget(Sums& sums, Vec3i lo, Vec3i hi, int subvoxels)
         : sums_(sums), base_(lo * subvoxels), end_(hi * subvoxels), mask_(subvoxels - 1) {
         for (shift_ = 0; 1 << shift_ < subvoxels;) ++shift_;
@@ -88,7 +87,7 @@ public:
 
     [[nodiscard]] HEDDLE_HD SubvoxelBox box() const { return {base_, end_}; }
 
-    /// Cell of the voxel that a subvoxel lies in.
+    /// Returns the cell of the voxel that contains a subvoxel.
     [[nodiscard]] HEDDLE_INLINE int cell_of(std::int32_t i, std::int32_t j, std::int32_t k) const {
         const int x = i - base_.x;
         const int y = j - base_.y;
@@ -96,7 +95,7 @@ public:
         return ((x >> shift_) * kBlockVoxels + (y >> shift_)) * kBlockVoxels + (z >> shift_);
     }
 
-    /// Sets the column's and the subvoxel's bit.
+    /// Sets the bits of the column and of the subvoxel.
     /// @param cell  cell_of(i, j, k)
     HEDDLE_INLINE void
     mark(int cell, int axis, std::int32_t i, std::int32_t j, std::int32_t k) const {
@@ -113,8 +112,8 @@ public:
         sums_.or_subvoxels(cell, sub >> 6, std::uint64_t{1} << (sub & 63));
     }
 
-    /// Pools `count` hits of one share, whose maps all read 1. How many follow each other depends
-    /// on the block: sums that forget count one.
+    /// Pools `count` hits with the same share and without maps. With FitMode::Last only one counts,
+    /// as the length of a run depends on the block.
     HEDDLE_INLINE void pool(int cell, const Share& share, std::int64_t count) const {
         if constexpr (kForgets) count = sums_.forget(cell) ? 1 : count;
         add_share(cell, share, count);
@@ -140,7 +139,7 @@ private:
     }
 
     HEDDLE_INLINE void add_maps(int cell, const SurfaceSample& s, std::int64_t weight) const {
-        // by strength: where the map says isotropic, its direction says nothing
+        // weighted by strength: the direction of an isotropic texel has no meaning
         const std::array<std::int64_t, 6> tangent =
             weighted_moment(s.tangent, static_cast<float>(weight) * s.anisotropy);
         for (int i = 0; i < 6; ++i) {
@@ -160,7 +159,8 @@ private:
     int mask_;
 };
 
-/// A triangle of a block. It is set up at its first hit: many of a fine mesh have none.
+/// A triangle of a block. It is set up at its first hit, since many triangles of a fine mesh have
+/// none.
 template <typename Sums>
 struct BlockTriangle {
     const BlockTarget<Sums> target;
@@ -174,8 +174,8 @@ struct BlockTriangle {
     }
 };
 
-/// The hits of a triangle whose normal is the same everywhere. Those of one voxel that follow each
-/// other are pooled together.
+/// The hits of a triangle with a constant normal. Consecutive hits in one voxel are pooled
+/// together.
 template <typename Sums>
 class ConstantHits {
 public:
@@ -219,9 +219,9 @@ private:
     std::int64_t count_ = 0;
 };
 
-/// The hits of a triangle that is shaded: each by itself where alpha may cut it, else in runs of up
-/// to TriangleSetup::run. What a run is must not depend on the block: its columns lie in one group
-/// of so many, in one row, in one voxel.
+/// The hits of a shaded triangle. With alpha they are sampled one by one, else in runs of up to
+/// TriangleSetup::run. Runs must not depend on the block: the columns of a run are in one aligned
+/// group of that size, in one row and in one voxel.
 template <typename Sums>
 class ShadedHits {
 public:

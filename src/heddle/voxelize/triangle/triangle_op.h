@@ -13,10 +13,10 @@ namespace heddle {
 
 namespace triangle_detail {
 
-/// True only if the scan would find no hit in the box: half of what lies within reach of a block.
+/// Returns true only if the triangle has no hit in the box, as about half of those near a block.
 [[nodiscard]] HEDDLE_HD inline bool is_outside(const MicroTriangle& t, const SubvoxelBox& box) {
     bool outside = false;
-    for (int a = 0; a < 3; ++a) { // a subvoxel more than the snapping can move a vertex
+    for (int a = 0; a < 3; ++a) { // one subvoxel, more than snapping can move a vertex
         const double lo = box.lo[a] - 1.0;
         const double hi = box.hi[a] + 1.0;
         const double x = t.p[0][a];
@@ -27,7 +27,7 @@ namespace triangle_detail {
     return outside;
 }
 
-/// The hits of a displaced triangle's pieces: each by itself, with its piece's normal.
+/// The hits of a displaced triangle's micro-triangles, each sampled with the normal of its own.
 template <typename Sums>
 class DisplacedHits {
 public:
@@ -68,7 +68,7 @@ private:
     std::int64_t hits_ = 0;
 };
 
-/// A displaced triangle's corners, normals and uv.
+/// Returns the corners, normals and uv of a triangle to be displaced.
 [[nodiscard]] HEDDLE_HD inline DisplaceTriangle displaced(const MeshView& m,
                                                           std::uint64_t triangle) {
     const std::array<std::uint32_t, 3> corner = m.triangles[triangle];
@@ -104,17 +104,17 @@ HEDDLE_HD inline TriangleWork add_displaced(const BlockTriangle<Sums>& t, Scratc
 
 } // namespace triangle_detail
 
-/// Adds what lies in a block of one triangle: one body for host and device.
+/// Adds the part of one triangle inside a block to the block's sums, on host and device.
 ///
-/// Every centre line of a column that the triangle meets in a subvoxel of the block sets the
-/// column's bit and the subvoxel's, and pools the normal, weighted by the area that the hit stands
-/// for (`hit_weight`). Maps' values and anisotropic tangents go to the map sums where there are
-/// some. A hit that alpha cuts away leaves nothing.
+/// If the triangle hits the centre line of a column in a subvoxel of the block, the bits of the
+/// column and the subvoxel are set, and the normal is pooled, weighted by the area per hit
+/// (hit_weight()). Values of maps and anisotropic tangents are added to the map sums if there are
+/// any. A hit that alpha cuts away is ignored.
 ///
-/// @tparam Kind    the mesh's kind: code for the others would take the device's registers
-/// @param lo,hi    voxels of the block, [lo, hi), at most kBlockVoxels an axis
-/// @param sums     of the block, bound to the material of the triangle's mesh (surface_hits.h)
-/// @param scratch  DisplaceScratch, or NoScratch
+/// @tparam Kind    kind of the mesh; code for the other kinds would need registers of the device
+/// @param lo,hi    voxel range of the block, [lo, hi), at most kBlockVoxels per axis
+/// @param sums     sums of the block for the material of the triangle's mesh (surface_hits.h)
+/// @param scratch  DisplaceScratch or NoScratch
 template <SurfaceKind Kind, typename Sums, typename Scratch>
 HEDDLE_HD inline TriangleWork add_triangle(const SurfaceView& surfaces,
                                            TriangleId place,
@@ -130,7 +130,7 @@ HEDDLE_HD inline TriangleWork add_triangle(const SurfaceView& surfaces,
     if constexpr (Kind == SurfaceKind::Displaced) return add_displaced(t, scratch);
 }
 
-/// The same of any kind.
+/// Adds a triangle of any kind.
 template <typename Sums, typename Scratch>
 HEDDLE_HD inline TriangleWork add_triangle(const SurfaceView& surfaces,
                                            TriangleId place,

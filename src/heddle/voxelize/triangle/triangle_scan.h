@@ -10,37 +10,37 @@ namespace heddle {
 
 // Scan conversion of triangles along the three axes, block by block.
 //
-// Space: lattice coordinates, scene position / subvoxel edge per axis, so that subvoxel (i, j, k)
+// Lattice coordinates are the scene position / subvoxel edge per axis, so that subvoxel (i, j, k)
 // spans [i, i + 1) x [j, j + 1) x [k, k + 1). Vertices are snapped to 1 / 4096 of a subvoxel on
-// that one lattice, so a vertex shared by two triangles is the same point for both and for every
+// this lattice, so a vertex that two triangles share is the same point for both and for every
 // block.
 //
-// Which centre lines a triangle meets is decided in integers. A row of centres takes the two edges
-// that straddle it, and the span between the first centre at or past each crossing: both bounds
-// depend on one edge alone, so two triangles that share it share the bound, whatever their
-// orientation. Of two triangles with a common edge exactly one is met by each line; a closed mesh
-// is met an even number of times. It is the top-left rule, written without orientations.
+// Hits of centre lines are decided in integers. For a row of centres, the two edges that straddle
+// it are intersected with it; the hits lie between the first centres at or past the two crossings.
+// Each bound depends on one edge only, so two triangles that share an edge have the same bound,
+// whatever their orientation. Each line hits exactly one of two triangles at their common edge, and
+// a closed mesh is hit an even number of times. This is the top-left rule without orientations.
 //
-// Exact for |lattice coordinate| < 2^30: products fit 64 bits while a triangle is shorter than 2^18
-// subvoxels, and are taken in 128 bits above that. Depth and barycentrics use double + - * only, so
-// they have the same bits on every machine, with rounding below 1e-12 of the triangle's size.
+// It is exact for |lattice coordinate| < 2^30: products fit in 64 bits for triangles shorter than
+// 2^18 subvoxels; 128 bits are used above. Depth and barycentrics use double + - * only, so they
+// have the same bits on every machine, with rounding errors below 1e-12 of the triangle's size.
 
 inline constexpr int kScanFractionBits = 12;
 inline constexpr std::int64_t kScanOne = std::int64_t{1} << kScanFractionBits;
 inline constexpr std::int64_t kScanHalf = kScanOne / 2;
 inline constexpr std::int64_t kScanNarrowLimit = kScanOne << 18; ///< extent of the 64-bit path
 
-/// Subvoxel indices [lo, hi) per axis.
+/// A box of subvoxel indices, [lo, hi) per axis.
 struct SubvoxelBox {
     Vec3i lo;
     Vec3i hi;
 };
 
-/// A triangle on the snapped lattice: vertex v, axis a at anchor[a] + p[v][a] / 4096.
+/// A snapped triangle: coordinate a of vertex v is anchor[a] + p[v][a] / 4096.
 struct ScanTriangle {
-    std::int32_t anchor[3]; ///< subvoxel that holds the lower corner of the triangle's bounds
+    std::int32_t anchor[3]; ///< subvoxel that contains the lower corner of the triangle's bounds
     std::int64_t p[3][3];   ///< >= 0
-    std::int64_t extent;    ///< no p is larger
+    std::int64_t extent;    ///< upper bound of p
 };
 
 namespace scan_detail {
@@ -59,13 +59,13 @@ greatest(std::int64_t a, std::int64_t b, std::int64_t c) {
 
 } // namespace scan_detail
 
-/// Largest integer <= `x`, |x| < 2^62.
+/// Returns the largest integer <= `x`, for |x| < 2^62.
 [[nodiscard]] HEDDLE_HD inline std::int64_t floor_to_int(double x) {
     const auto q = static_cast<std::int64_t>(x);
     return q - (static_cast<double>(q) > x ? 1 : 0);
 }
 
-/// Lattice coordinates of a scene position.
+/// Returns the lattice coordinates of a scene position.
 [[nodiscard]] HEDDLE_HD inline Vec3d to_lattice(Vec3f p, Vec3d subvoxel_size) {
     return {static_cast<double>(p.x) / subvoxel_size.x, static_cast<double>(p.y) / subvoxel_size.y,
             static_cast<double>(p.z) / subvoxel_size.z};
@@ -89,17 +89,16 @@ greatest(std::int64_t a, std::int64_t b, std::int64_t c) {
         t.p[0][a] = x0 - origin;
         t.p[1][a] = x1 - origin;
         t.p[2][a] = x2 - origin;
-        t.extent |= t.p[0][a] | t.p[1][a] | t.p[2][a]; // below the next power of two of the largest
+        t.extent |= t.p[0][a] | t.p[1][a] | t.p[2][a]; // less than twice the largest
     }
     return t;
 }
 
-/// Area, in scene units^2, that a hit along `axis` stands for: |n_a| x a column's cross-section.
+/// Returns the area of a hit along `axis`, in scene units^2: |n_a| x the cross-section of a column.
 ///
-/// Seen along axis a the triangle has the area |n_a| A, so it is met by |n_a| A / (column section)
-/// centre lines in the mean; summed over the axes the weights come to A (n_x^2 + n_y^2 + n_z^2) =
-/// A.
-/// @param normal  unit, of the triangle itself, in scene space (not of the lattice)
+/// Seen along axis a, the triangle has the area |n_a| A, so on average |n_a| A / (column section)
+/// centre lines hit it. The weights of all axes add up to A (n_x^2 + n_y^2 + n_z^2) = A.
+/// @param normal  unit normal of the triangle, in scene space (not of the lattice)
 [[nodiscard]] HEDDLE_HD inline double hit_weight(Vec3d normal, int axis, Vec3d subvoxel_size) {
     const double section = axis == 0   ? subvoxel_size.y * subvoxel_size.z
                            : axis == 1 ? subvoxel_size.z * subvoxel_size.x
@@ -107,7 +106,8 @@ greatest(std::int64_t a, std::int64_t b, std::int64_t c) {
     return std::abs(normal[axis]) * section;
 }
 
-/// Unit normal in scene space of a triangle in lattice coordinates; +z where it has no area.
+/// Returns the unit normal in scene space of a triangle in lattice coordinates; +z if it has no
+/// area.
 [[nodiscard]] HEDDLE_HD inline Vec3d
 scene_normal(Vec3d p0, Vec3d p1, Vec3d p2, Vec3d subvoxel_size) {
     return normalize(cross((p1 - p0) * subvoxel_size, (p2 - p0) * subvoxel_size));
@@ -115,7 +115,7 @@ scene_normal(Vec3d p0, Vec3d p1, Vec3d p2, Vec3d subvoxel_size) {
 
 namespace scan_detail {
 
-/// First index whose centre is at or past the coordinate `x` >= 0.
+/// Returns the first index whose centre is at or past the coordinate `x` >= 0.
 [[nodiscard]] HEDDLE_HD constexpr std::int64_t first_center(std::int64_t x) {
     return (x + kScanHalf - 1) >> kScanFractionBits;
 }
@@ -123,7 +123,7 @@ namespace scan_detail {
 /// An edge of the projected triangle from (u, v) to (u + du, v + dv), dv >= 0.
 struct RowEdge {
     std::int64_t u, v, du, dv;
-    double inverse; ///< 1 / (dv x 4096); infinite where the edge lies along a row and crosses none
+    double inverse; ///< 1 / (dv x 4096); infinite if the edge is along a row and crosses none
 };
 
 [[nodiscard]] HEDDLE_HD inline RowEdge
@@ -131,13 +131,13 @@ make_row_edge(std::int64_t u0, std::int64_t v0, std::int64_t u1, std::int64_t v1
     return {u0, v0, u1 - u0, v1 - v0, 1.0 / static_cast<double>((v1 - v0) * kScanOne)};
 }
 
-/// First column whose centre is at or past the edge's crossing with the row of coordinate `y`.
+/// Returns the first column with its centre at or past the edge's crossing with row coordinate `y`.
 template <typename Int>
 [[nodiscard]] HEDDLE_HD inline std::int64_t cross_row(const RowEdge& e, std::int64_t y) {
     const Int number = Int{e.u - kScanHalf} * Int{e.dv} + Int{e.du} * Int{y - e.v};
     const Int unit = Int{e.dv} * Int{kScanOne};
     auto q = static_cast<std::int64_t>(static_cast<double>(number) * e.inverse);
-    Int left = number - Int{q} * unit; // the float quotient is within 1: made exact here
+    Int left = number - Int{q} * unit; // corrects the quotient, which is within 1
     for (; left > 0; left -= unit) ++q;
     for (; left <= -unit; left += unit) --q;
     return q;
@@ -147,14 +147,14 @@ template <typename Int>
 struct AxisScan {
     bool wide; ///< products need 128 bits
     std::int64_t row_mid;
-    RowEdge whole, lower, upper; ///< sorted by v; `lower` below row_mid, `upper` from there
+    RowEdge whole, lower, upper; ///< sorted by v; `lower` below row_mid, else `upper`
     std::int64_t u0, v0, du1, dv1, du2, dv2;
     double inverse_area;
     double w0, dw1, dw2, w_lo, w_hi;
-    double step1, step2, step_w; ///< of b1, b2 and depth, a column
+    double step1, step2, step_w; ///< steps of b1, b2 and depth per column
 };
 
-/// The hits of one row: columns [first, last), barycentrics and depth at the first.
+/// The hits of one row: columns [first, last), with barycentrics and depth at the first.
 struct RowSpan {
     std::int64_t first = 0, last = 0;
     double b1 = 0.0, b2 = 0.0, w = 0.0;
@@ -179,7 +179,7 @@ HEDDLE_HD inline RowSpan scan_row_as(const AxisScan& s, std::int64_t row) {
 
 using Int128 = __int128;
 
-/// For triangles longer than 2^18 subvoxels.
+/// Scans a row of a triangle longer than 2^18 subvoxels.
 HEDDLE_COLD RowSpan scan_wide_row(const AxisScan& s, std::int64_t row) {
     return scan_row_as<Int128>(s, row);
 }
@@ -200,7 +200,7 @@ HEDDLE_HD inline bool make_axis_scan(const ScanTriangle& t, AxisScan& s) {
     const double area = s.wide ? twice_area<Int128>(s) : twice_area<std::int64_t>(s);
     if (area == 0.0) return false;
     s.inverse_area = 1.0 / area;
-    // vertices by rising v, without branches: which of them is a coin toss
+    // sort the vertices by v without branches, which would be mispredicted
     const int o0 =
         t.p[1][v] < t.p[0][v] ? (t.p[2][v] < t.p[1][v] ? 2 : 1) : (t.p[2][v] < t.p[0][v] ? 2 : 0);
     const int o2 =
@@ -210,8 +210,8 @@ HEDDLE_HD inline bool make_axis_scan(const ScanTriangle& t, AxisScan& s) {
     s.whole = make_row_edge(t.p[o0][u], t.p[o0][v], t.p[o2][u], t.p[o2][v]);
     s.lower = make_row_edge(t.p[o0][u], t.p[o0][v], t.p[o1][u], t.p[o1][v]);
     s.upper = make_row_edge(t.p[o1][u], t.p[o1][v], t.p[o2][u], t.p[o2][v]);
-    // A depth on a subvoxel border belongs above it: the nudge, 2^-20 of a subvoxel, is more than
-    // rounding takes away, so planes through lattice points do not flicker.
+    // A depth on a subvoxel border belongs to the subvoxel above: the nudge of 2^-20 subvoxels is
+    // larger than rounding errors, so planes through lattice points have no noise.
     const double nudge = 0x1p-8;
     const std::int64_t w0 = t.p[0][Axis], w1 = t.p[1][Axis], w2 = t.p[2][Axis];
     s.w_lo = static_cast<double>(least(w0, w1, w2)) + nudge;
@@ -225,7 +225,7 @@ HEDDLE_HD inline bool make_axis_scan(const ScanTriangle& t, AxisScan& s) {
     return true;
 }
 
-/// Drops columns of a long row whose depth is clear of [w_lo, w_hi): saves time, changes no hit.
+/// Skips columns of a long row whose depth is outside [w_lo, w_hi), to save time; no hit is lost.
 HEDDLE_HD inline void clip_to_depth(const RowSpan& span,
                                     double step_w,
                                     double w_lo,
@@ -244,11 +244,11 @@ HEDDLE_HD inline void clip_to_depth(const RowSpan& span,
     if (hi + base < static_cast<double>(last)) last = floor_to_int(hi + base) + 1;
 }
 
-/// Index ranges [lo, hi) of the box, of its centre lines that the triangle can meet, relative to
-/// the anchor.
+/// Index ranges [lo, hi) relative to the anchor: of the box, and of its centre lines that the
+/// triangle can hit.
 struct ScanRange {
     std::int64_t lo[3], hi[3];               ///< of the box
-    std::int64_t center_lo[3], center_hi[3]; ///< cut to the triangle's own
+    std::int64_t center_lo[3], center_hi[3]; ///< clipped to the triangle's bounds
 };
 
 template <int Axis, typename Hit>
@@ -260,7 +260,7 @@ HEDDLE_HD inline void scan_axis(const ScanTriangle& t, const ScanRange& range, H
     if (!make_axis_scan<Axis>(t, s)) return;
     const std::int64_t k_lo = range.lo[Axis], k_hi = range.hi[Axis];
     const auto k_count = static_cast<std::uint64_t>(k_hi - k_lo);
-    // Copies, so that the loop below need not reload what `hit` cannot have changed.
+    // Copies, so that the compiler does not reload them after each call of `hit`.
     const double w_lo = s.w_lo, w_hi = s.w_hi, step_w = s.step_w;
     const double step1 = s.step1, step2 = s.step2;
     const std::int32_t anchor_u = t.anchor[u], anchor_v = t.anchor[v], anchor_w = t.anchor[Axis];
@@ -293,13 +293,12 @@ HEDDLE_HD inline void scan_axis(const ScanTriangle& t, const ScanRange& range, H
 
 } // namespace scan_detail
 
-/// Calls `hit(axis, i, j, k, b0, b1, b2)` for every column centre line that meets the triangle in a
-/// subvoxel (i, j, k) of `box`, for each of the three axes.
+/// Calls `hit(axis, i, j, k, b0, b1, b2)` for every column centre line that intersects the triangle
+/// in a subvoxel (i, j, k) of `box`, for each of the three axes.
 ///
-/// (i, j, k) are global subvoxel indices (std::int32_t) along x, y, z; along `axis` (int) it is the
-/// floor of the depth. b0, b1, b2 (float, >= 0, sum 1) weight the vertices. A hit does not depend
-/// on the box: boxes that tile space share out the same hits. Order: by axis, then row, then
-/// column.
+/// (i, j, k) are global subvoxel indices (std::int32_t) along x, y, z; the one along `axis` (int)
+/// is the floor of the depth. b0, b1, b2 (float, >= 0, sum 1) are barycentric coordinates. A hit
+/// does not depend on the box. The order is by axis, then row, then column.
 template <typename Hit>
 HEDDLE_HD inline void scan_triangle(const ScanTriangle& t, const SubvoxelBox& box, Hit&& hit) {
     using namespace scan_detail;
