@@ -90,8 +90,9 @@ void TraversalLevel::append(const VoxelBlock& block,
     for (const VoxelLeaf& from : block.leaves) {
         table_.add(from.origin);
         box.grow(box_of(from));
-        const TraversalLeaf& leaf = leaves_.emplace_back(
-            RankedMask(from.active), first_voxel + from.first_voxel, first_lobe + from.first_lobe);
+        leaves_.push_back({RankedMask(from.active), first_voxel + from.first_voxel,
+                           first_lobe + from.first_lobe});
+        const TraversalLeaf& leaf = leaves_.back();
         const std::size_t count = leaf.mask.count();
         std::uint32_t lobe = 0;
         for (std::size_t v = from.first_voxel; v < from.first_voxel + count; ++v) {

@@ -27,7 +27,7 @@ struct Mask {
 struct Int {
     __m256i v;
     Int() = default;
-    Int(__m256i x) : v(x) {}
+    Int(__m256i x) : v(x) {} // NOLINT(google-explicit-constructor): as the intrinsics give it
     explicit Int(std::int32_t x) : v(_mm256_set1_epi32(x)) {}
     static Int load(const std::int32_t* p) {
         return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p));
@@ -53,7 +53,7 @@ struct Int {
 struct Real {
     __m256 v;
     Real() = default;
-    Real(__m256 x) : v(x) {}
+    Real(__m256 x) : v(x) {} // NOLINT(google-explicit-constructor): as the intrinsics give it
     explicit Real(float x) : v(_mm256_set1_ps(x)) {}
     static Real load(const float* p) { return _mm256_loadu_ps(p); }
     void store(float* p) const { _mm256_storeu_ps(p, v); }

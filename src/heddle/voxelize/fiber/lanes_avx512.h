@@ -23,7 +23,7 @@ struct Mask {
 struct Int {
     __m512i v;
     Int() = default;
-    Int(__m512i x) : v(x) {}
+    Int(__m512i x) : v(x) {} // NOLINT(google-explicit-constructor): as the intrinsics give it
     explicit Int(std::int32_t x) : v(_mm512_set1_epi32(x)) {}
     static Int load(const std::int32_t* p) { return _mm512_loadu_si512(p); }
     void store(std::int32_t* p) const { _mm512_storeu_si512(p, v); }
@@ -45,7 +45,7 @@ struct Int {
 struct Real {
     __m512 v;
     Real() = default;
-    Real(__m512 x) : v(x) {}
+    Real(__m512 x) : v(x) {} // NOLINT(google-explicit-constructor): as the intrinsics give it
     explicit Real(float x) : v(_mm512_set1_ps(x)) {}
     static Real load(const float* p) { return _mm512_loadu_ps(p); }
     void store(float* p) const { _mm512_storeu_ps(p, v); }
