@@ -1,7 +1,7 @@
 #pragma once
 
-// All that a program starts from. A program that needs one room includes the headers of that room
-// alone.
+// Includes the main headers of all rooms. A program that needs only one room includes that room's
+// headers instead.
 
 // The core.
 #include <heddle/base/error.h>

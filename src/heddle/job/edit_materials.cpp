@@ -23,7 +23,7 @@ std::string name_or_number(const std::vector<Material>& materials, std::size_t i
     return materials[i].name.empty() ? str(i) : materials[i].name;
 }
 
-/// "; did you mean 'x'?", or what there is.
+/// Returns "; did you mean 'x'?", or a list of all names.
 std::string suggestion(const std::string& word, const std::vector<std::string>& names) {
     const std::string_view near = nearest_name(word, names);
     if (!near.empty()) return str("; did you mean '", near, "'?");
@@ -32,7 +32,7 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
     return str("; the file has: ", listed);
 }
 
-/// The material of that name, else of that number.
+/// Returns the index of the material of that name, else of that number.
 std::size_t find_material(const std::vector<Material>& materials, const std::string& word) {
     const auto named = [&](const Material& m) { return m.name == word; };
     const auto at = std::find_if(materials.begin(), materials.end(), named);
@@ -54,7 +54,7 @@ std::size_t find_material(const std::vector<Material>& materials, const std::str
     refuse(str("no material '", word, "'", suggestion(word, names)));
 }
 
-/// Puts one edit's values into a material, each value at most once of all edits.
+/// Applies edits to materials, and refuses to set a value twice.
 class Editor {
 public:
     explicit Editor(std::vector<Material> materials)
@@ -110,7 +110,7 @@ private:
     std::size_t at_ = 0;
 };
 
-/// What edits ask of voxels that do not have it.
+/// Returns a note for each edit of anisotropy that needs tangents if the file has none.
 std::vector<std::string> missing_tangents(const VoxelLevelInfo& info,
                                           const std::vector<Material>& materials) {
     std::vector<std::string> notes;

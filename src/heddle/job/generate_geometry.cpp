@@ -25,7 +25,7 @@ void write_geometry(const Geometry& geometry, GenerateKind kind, const std::stri
     if (suffix == ".bcc") return write_bcc(geometry.curves, path);
     if (geometry.curves.size() != 1) {
         throw Error(ErrorCode::Internal, str("generate: ", geometry.curves.size(),
-                                             " sets of strands, a .hair file takes one"));
+                                             " sets of strands, but a .hair file holds one"));
     }
     write_hair(geometry.curves.front(), path);
 }

@@ -9,21 +9,23 @@
 
 namespace heddle::job {
 
+/// What was generated, and how long it took.
 struct GenerateReport {
-    GenerateOptions options; ///< with every default in its place
+    GenerateOptions options; ///< with all defaults filled in
     std::int64_t nodes = 0;  ///< control points of curves, or vertices of meshes
     StageTimes stages{};
 };
 
-/// The suffix of the format that holds what a kind makes: ".bcc", ".hair" or ".glb".
+/// Returns the suffix of the file format for this kind of geometry: ".bcc", ".hair" or ".glb".
 [[nodiscard]] std::string suffix_for(GenerateKind kind);
 
-/// Cloth, hair or meshes made from nothing, in memory.
-/// @throws Error  as resolve; OutOfMemory: more than is free; Cancelled
+/// Generates procedural cloth, hair or meshes in memory.
+/// @throws Error  as resolve; OutOfMemory: the geometry exceeds the free memory; Cancelled
 [[nodiscard]] Geometry generate_geometry(const GenerateOptions& options, Progress& progress);
 
-/// The same into a file.
-/// @throws OptionError  another suffix than suffix_for()
+/// Generates geometry and writes it to a file.
+/// @param output        a path that ends in suffix_for(options.kind)
+/// @throws OptionError  `output` has another suffix
 /// @throws Error        as generate_geometry; CannotWrite
 GenerateReport
 generate_to_file(const GenerateOptions& options, const std::string& output, Progress& progress);

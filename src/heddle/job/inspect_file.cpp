@@ -64,7 +64,7 @@ VoxelizeOptions plan_options(const InspectOptions& options) {
     return out;
 }
 
-/// What voxelizing would take, or in one line why it cannot be done as asked.
+/// Adds the plan of a voxelization, or one line that says why there is none.
 void plan_in(GeometryInfo& info,
              const Geometry& geometry,
              const VoxelizeOptions& options,

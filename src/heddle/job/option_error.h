@@ -6,8 +6,8 @@
 
 namespace heddle::job {
 
-/// Options that do not go together, or that the input has no use for: InvalidArgument without a
-/// path. Its text has the names of options in backquotes, as the structs have them.
+/// Says which options cannot be used together, are out of range, or do not apply to the input. An
+/// InvalidArgument without a path. Its text names struct members in backquotes (`voxel_size`).
 class OptionError final : public Error {
 public:
     explicit OptionError(const std::string& what) : Error(ErrorCode::InvalidArgument, what) {}

@@ -12,10 +12,10 @@ namespace heddle::job {
 void check_output(const std::string& path, const std::string& suffix, const std::string& option) {
     namespace fs = std::filesystem;
     std::error_code ignored;
-    // OutputFile would write to a device, but a .vdb needs seeks: said before the work starts
+    // OutputFile can write to a device, but a .vdb needs seeks, so devices are refused here
     if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
         throw Error(ErrorCode::CannotWrite, "this is a folder or a device, not a file",
-                    "write to another place", {.path = path});
+                    "write to another path", {.path = path});
     }
     if (suffix_of(path) != suffix) {
         throw OptionError(str("`", option, "`: '", path, "' must end in ", suffix));

@@ -7,23 +7,23 @@
 
 namespace heddle::job {
 
-/// Throws unless a file can be put at `path`: asked before long work, not after it.
-/// @param suffix  that the path must end in
-/// @param option  that gave the path
-/// @throws OptionError  another suffix
-/// @throws Error        CannotWrite: a folder, a device, a place without permission
+/// Checks that a file can be written to `path`, so that a long computation is not done in vain.
+/// @param suffix  the path must end in it
+/// @param option  name of the option that gave the path, for messages
+/// @throws OptionError  the path has another suffix
+/// @throws Error        CannotWrite: the path is a folder or a device, or permission is missing
 void check_output(const std::string& path,
                   const std::string& suffix,
                   const std::string& option = "output");
 
-/// Runs `write`, and makes of what it throws for a bad place or a full disk an Error{CannotWrite}.
+/// Runs `write`, and turns its exceptions for a bad path or a full disk into Error{CannotWrite}.
 void write_output(const std::function<void()>& write);
 
 /// Writes a text file, whole or not at all.
 /// @throws Error  CannotWrite
 void write_text(const std::string& path, std::string_view text);
 
-/// Bytes of a file; 0 where there is none.
+/// Returns the size of a file in bytes; 0 if there is no file.
 [[nodiscard]] std::int64_t file_bytes(const std::string& path);
 
 } // namespace heddle::job

@@ -17,7 +17,7 @@ void write_texture(const std::string& path, const Texture& image) {
     write_output([&] { write_png(path, image.width, image.height, image.channels, image.texels); });
 }
 
-/// The yarn of the image at `image`, so that what reads yarns takes the file.
+/// Writes a yarn file that refers to the image at `image` by a relative path.
 void write_yarn_file(const std::string& path, YarnType yarn, const std::string& image) {
     namespace fs = std::filesystem;
     const fs::path folder = fs::absolute(path).parent_path();

@@ -10,13 +10,13 @@
 
 namespace heddle::job {
 
-/// Name and seconds of each stage of a job, in order; stages of one name are added up.
+/// Name and seconds of each phase of a job, in order; phases of the same name are added up.
 using StageTimes = std::vector<std::pair<std::string, double>>;
 
-/// Passes everything on to another Progress and keeps how long each stage took.
+/// Forwards all calls to another Progress and measures how long each phase takes.
 class StageClock final : public Progress {
 public:
-    /// @param outer  lives as long
+    /// @param outer  must outlive this object
     explicit StageClock(Progress& outer);
 
     void begin(std::string_view stage, std::string_view unit, std::int64_t total) override;
@@ -24,11 +24,11 @@ public:
     void begin_part(std::string_view name) override { outer_.begin_part(name); }
     void note(std::string_view sentence) override { outer_.note(sentence); }
 
-    /// Ends the running stage.
+    /// Ends the running phase.
     void finish();
-    /// The stages that have ended.
+    /// Returns the phases that have ended.
     [[nodiscard]] const StageTimes& stages() const { return stages_; }
-    /// Since this was made.
+    /// Returns the seconds since construction.
     [[nodiscard]] double seconds() const;
 
 private:
@@ -36,12 +36,12 @@ private:
 
     Progress& outer_;
     Clock::time_point made_;
-    Clock::time_point begun_; ///< of the running stage
-    std::string stage_;       ///< that runs; empty: none
+    Clock::time_point begun_; ///< start of the running phase
+    std::string stage_;       ///< name of the running phase; empty: none
     StageTimes stages_;
 };
 
-/// Keeps sentences for a report, and has the user told of each at once.
+/// Appends sentences to the notes of a report, and reports each to `progress` at once.
 void take_notes(std::vector<std::string>& kept,
                 const std::vector<std::string>& sentences,
                 Progress& progress);

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-// What tests of jobs share: a Progress that stops after some calls, and small inputs.
+// Shared by the tests of jobs: a Progress that cancels after some calls, and small inputs.
 
 namespace heddle::test {
 
-/// Is cancelled at the n-th call of advance(); 0: from the beginning. Keeps notes and parts.
+/// Cancels at the n-th call of advance(); 0: from the beginning. Records notes and parts.
 class CancelAt final : public Progress {
 public:
     explicit CancelAt(std::int64_t n) : left_(n) {
@@ -33,21 +33,21 @@ private:
 
 constexpr std::int64_t kNever = std::int64_t{1} << 60;
 
-/// Expects that `run` is cancelled from the beginning and at the first call of advance(), and
-/// leaves nothing in the folder but `entries` files.
+/// Cancels `run` at its beginning, then at its first call of advance(). Expects both times that it
+/// is cancelled and that the folder has `entries` files.
 inline void expect_cancelled(const heddle::testing::TempFolder& folder,
                              std::size_t entries,
                              const std::function<void(Progress&)>& run) {
     for (const std::int64_t n : {0, 1}) {
         CancelAt progress(n);
         const std::optional<Error> error = heddle::testing::error_of([&] { run(progress); });
-        ASSERT_TRUE(error.has_value()) << n << ": it went through";
+        ASSERT_TRUE(error.has_value()) << n << ": the run was not cancelled";
         EXPECT_EQ(to_string(error->code()), "cancelled") << error->what();
         EXPECT_EQ(folder.count_entries(), entries) << n;
     }
 }
 
-/// Two yarns of the radius .2 along x, of one fiber material.
+/// Returns two yarns of radius 0.2 along x, of one fiber material.
 inline Geometry two_yarns() {
     Geometry geometry;
     geometry.name = "two";
@@ -63,7 +63,7 @@ inline Geometry two_yarns() {
     return geometry;
 }
 
-/// Two triangles of a surface.
+/// Returns a unit square of two triangles.
 inline Geometry square() {
     Geometry geometry;
     geometry.name = "square";

@@ -13,10 +13,10 @@
 
 namespace heddle::preview {
 
-/// What a ray needs of a voxel.
+/// The data of a voxel that a ray needs.
 struct PreviewVoxel {
     std::array<std::uint8_t, 3> depth; ///< -ln(1 - c_a) by axis, 255 = kMaxDepth
-    std::uint8_t width;                ///< of the heaviest lobe, 255 = round
+    std::uint8_t width;                ///< of the heaviest lobe, 255 = isotropic
     std::array<std::uint8_t, 3> color; ///< sRGB-like: square root of linear
     std::array<std::int8_t, 3> axis;   ///< heaviest lobe's direction, 127 = 1
     std::uint8_t material;             ///< of the heaviest lobe
@@ -35,12 +35,12 @@ struct PreviewLeaf {
     std::uint32_t block = 0;
 };
 
-/// The voxels of a level as a preview, or a view, walks through them: cells of 16^3 leaves are the
-/// tiles of a LeafTable.
+/// The voxels of a level in the layout that rays of the preview and the viewer traverse: a
+/// LeafTable with tiles of 16^3 leaves.
 class PreviewVolume {
 public:
     using Table = LeafTable<4>;
-    /// @param tangents  anisotropic surfaces give the direction of their brushing, not the normal
+    /// @param tangents  for anisotropic surfaces, stores the direction of brushing, not the normal
     /// @throws Error    Cancelled
     PreviewVolume(const VoxelLevel& source, bool tangents, Progress& progress);
 
@@ -52,18 +52,18 @@ public:
     [[nodiscard]] Vec3d bounds_lo() const { return bounds_lo_; }
     [[nodiscard]] Vec3d bounds_hi() const { return bounds_hi_; }
 
-    /// Numbers of leaves by voxel index.
+    /// Maps voxel indices to numbers of leaves.
     [[nodiscard]] const Table& table() const { return table_; }
-    /// The leaf at leaf index `l` of a tile of the table's; null where it is empty.
+    /// Returns the leaf at leaf index `l` in a tile of the table; null if there is none.
     [[nodiscard]] const PreviewLeaf* leaf(std::uint32_t tile, Vec3i l) const {
         const std::uint32_t number = table_.find_in_tile(tile, l * 8);
         return number == Table::kNone ? nullptr : &leaves_[number];
     }
-    /// PreviewVoxel `number` of a leaf's active ones.
+    /// Returns the PreviewVoxel of a leaf's active voxel `number`.
     [[nodiscard]] const PreviewVoxel& voxel(const PreviewLeaf& leaf, std::int32_t number) const {
         return voxels_[leaf.block][leaf.first + static_cast<std::uint32_t>(number)];
     }
-    /// By the table's numbers.
+    /// Leaves in the order of the table's numbers.
     [[nodiscard]] std::span<const PreviewLeaf> leaves() const { return leaves_; }
     [[nodiscard]] std::span<const std::vector<PreviewVoxel>> voxels_by_block() const {
         return voxels_;

@@ -2,18 +2,18 @@
 
 namespace heddle::preview {
 
-// What a ray takes of the voxels that it crosses. The preview walks on the host and the view in a
-// shader (viewer/volume/voxel_walk_glsl.h); both take these.
+// Constants of the traversal that the preview runs on the host and the viewer in a shader
+// (viewer/volume/voxel_walk_glsl.h).
 
-/// Light that is less than this share of what there was is not followed.
+/// A ray ends when its transmittance is below this.
 inline constexpr float kOpaque = 0.004f;
-/// PreviewVoxel::width below which a lobe of normals is a sheet, not foliage.
+/// A lobe of normals with a PreviewVoxel::width below this is a flat surface, not foliage.
 inline constexpr int kFlatWidth = 96;
-/// How much of itself a sheet's voxel hides: more than what is exact in the mean, as the parts that
-/// a ray meets do not add up to just 1. At 1 slanted surfaces look moth-eaten, at 1.5 they are
-/// closed; edges come out half a voxel wider.
+/// Factor of the opacity of a flat surface's voxels. With 1, the mean is exact, but the opacities
+/// along a ray do not add up to exactly 1 and slanted surfaces have holes; with 1.5 they are
+/// closed, and edges are half a voxel wider.
 inline constexpr float kClosing = 1.5f;
-/// Voxels that a ray may pass between two of one sheet's.
+/// Largest distance along a ray, in voxels, between two voxels of one surface.
 inline constexpr float kSheetGap = 0.5f;
 
 } // namespace heddle::preview

@@ -9,7 +9,7 @@
 
 namespace heddle {
 
-/// Where a picture is taken from.
+/// The position, direction and lens of a camera.
 struct CameraParameters {
     bool orthographic = false;
     Vec3d eye{0, 0, 10};
@@ -17,8 +17,8 @@ struct CameraParameters {
     Vec3d up{0, 1, 0};
     double view_angle = 0.6;     ///< perspective: radians across the picture's height, in (0, pi)
     double view_height = 1.0;    ///< orthographic: the picture's height, scene units
-    double lens_radius = 0.0;    ///< 0: everything is sharp
-    double focus_distance = 0.0; ///< along the view; 0: the target's
+    double lens_radius = 0.0;    ///< scene units; 0: everything is in focus
+    double focus_distance = 0.0; ///< scene units along the view; 0: the target's distance
 };
 
 /// A pinhole, thin-lens or parallel camera.
@@ -27,18 +27,19 @@ public:
     /// @param width, height  px
     Camera(const CameraParameters& view, std::int32_t width, std::int32_t height);
 
+    /// Returns the ray through a point of the picture.
     /// @param x, y  px from the upper left corner
     /// @param lens  two numbers in [0, 1)
-    /// @return      with width and spread of one pixel
+    /// @return      its width and spread are those of one pixel
     [[nodiscard]] Ray ray(float x, float y, std::array<float, 2> lens) const;
 
 private:
     CameraParameters view_;
-    Vec3d forward_, right_, down_; ///< right_ and down_: one pixel at distance 1, or one pixel
+    Vec3d forward_, right_, down_; ///< right_, down_: a pixel (perspective: at distance 1)
     double center_x_, center_y_;
 };
 
-/// A camera that sees all of a box from a direction.
+/// Returns a camera that sees all of a box from one direction.
 /// @param from  towards the camera, any length > 0
 [[nodiscard]] CameraParameters frame(const Bounds& box, Vec3d from, Vec3d up, double aspect);
 

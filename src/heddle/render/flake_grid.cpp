@@ -9,7 +9,7 @@
 namespace heddle {
 namespace {
 
-/// Largest eigenvalue of a stored S, its rounding included: what a majorant must cover.
+/// Returns an upper bound of the largest eigenvalue of a stored S, rounded: needed by majorants.
 constexpr float kLargestFlake = 1.0001f;
 
 template <typename T>
@@ -17,8 +17,8 @@ std::int64_t bytes_of(const std::vector<T>& v) {
     return static_cast<std::int64_t>(v.capacity() * sizeof(T));
 }
 
-/// Corners of the leaves of cells that may hold extinction: a voxel reaches the cells on both
-/// sides.
+/// Returns the corners of all leaves whose cells may have extinction. A voxel contributes to the
+/// cells on both sides.
 std::vector<Vec3i> leaf_corners(const std::vector<Vec3i>& origins) {
     std::vector<Vec3i> out;
     out.reserve(8 * origins.size());
@@ -46,8 +46,8 @@ FlakeGrid::FlakeGrid(const FlakeField& field)
     add_leaves(field, leaf_corners(field.origins()));
 }
 
-/// Two rounds over the candidates: which hold extinction, then their flakes into arrays of that
-/// size.
+/// Visits the candidates twice: finds those with extinction, then stores their flakes in arrays of
+/// that size.
 void FlakeGrid::add_leaves(const FlakeField& field, const std::vector<Vec3i>& corners) {
     std::vector<std::uint8_t> dense(corners.size(), 0);
     parallel_chunks(corners.size(), 64, [&](std::size_t begin, std::size_t end) {
@@ -97,7 +97,7 @@ std::int64_t FlakeGrid::byte_count() const {
 
 namespace {
 
-/// Flakes from a cell's first one to its corners: bit 0 is x, bit 1 y, bit 2 z.
+/// Offsets from a cell's first flake to its corners: bit 0 is x, bit 1 is y, bit 2 is z.
 constexpr std::array<std::size_t, 8> kCorner{0, 1, 9, 10, 81, 82, 90, 91};
 
 } // namespace
@@ -151,12 +151,12 @@ Vec3f FlakeGrid::albedo(const TrilinearLookup& at) const {
     return sum * (1.0f / 255.0f);
 }
 
-/// A ray in cells, and in the object's axes.
+/// A ray in units of cells and in the object's axes.
 struct FlakeMedium::GridRay {
     VoxelRay cells;
-    Vec3f w;      ///< the ray's direction in the object, not unit
-    float length; ///< of w: a world's unit in the object's
-    float t0, t1; ///< in the grid's box
+    Vec3f w;      ///< direction in object space, not of unit length
+    float length; ///< of w: object units per scene unit
+    float t0, t1; ///< the part in the grid's box
 };
 
 FlakeMedium::FlakeMedium(std::shared_ptr<const FlakeGrid> grid,
@@ -198,7 +198,7 @@ FlakeMedium::GridRay FlakeMedium::enter(const Ray& ray) const {
 }
 
 /// Calls visit(leaf, ray from the leaf's corner, t_in, t_out) -> bool for the leaves that a ray
-/// crosses, in order, until it gives false. t counts from ray.t0.
+/// crosses, in order, until it returns false. t is relative to ray.t0.
 template <typename Visit>
 void FlakeMedium::walk(const GridRay& ray, const Visit& visit) const {
     if (!(ray.t0 < ray.t1)) return;
@@ -224,8 +224,8 @@ void FlakeMedium::walk(const GridRay& ray, const Visit& visit) const {
     }
 }
 
-/// Calls collide(where, density, t) -> bool at tentative collisions, exponentially far apart by the
-/// leaves' majorants, until it gives false. density: sigma_t / majorant. t counts from ray.t0.
+/// Calls collide(where, density, t) -> bool at tentative collisions, whose distances follow the
+/// leaves' majorants, until it returns false. density: sigma_t / majorant. t is relative to ray.t0.
 template <typename Collide>
 void FlakeMedium::track(const GridRay& ray, StreamRandom& random, const Collide& collide) const {
     float left = -std::log(1.0f - random.uniform());
@@ -286,7 +286,7 @@ Scatterer FlakeMedium::scatterer(const FlakeHit& hit, Vec3f wi) const {
     out.axis = wi; // flakes have no axis of their own
     out.tangent = any_perpendicular(wi);
     out.lobe = hit.S;
-    if (moved_) { // A^T S A, A the turn to the object: as the extinction sees it
+    if (moved_) { // A^T S A with the linear part A of to_object_, as in the extinction
         const Vec3f a[3]{to_float(to_object_.x), to_float(to_object_.y), to_float(to_object_.z)};
         const auto entry = [&](int i, int j) { return dot(a[i], multiply(hit.S, a[j])); };
         out.lobe = {entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)};

@@ -16,12 +16,12 @@
 
 namespace heddle {
 
-/// A FlakeField as rays cross it: leaves of 8^3 cells between voxel centres, each with the 9^3
-/// flakes that a trilinear lookup in it needs, and one majorant. Leaves without extinction are left
-/// out.
+/// A FlakeField in the layout that rays traverse: leaves of 8^3 cells between voxel centres, each
+/// with the 9^3 flakes that trilinear interpolation needs, and a majorant. Leaves without
+/// extinction are left out.
 ///
-/// sigma_t in 1 / 65535 of its leaf's largest, S in kFlakeUnit. Memory: 10.2 KB a leaf, 2.2 more
-/// where albedo varies. Never changes: any number of threads.
+/// sigma_t is stored in 1 / 65535 of the leaf's largest, S in units of kFlakeUnit. Memory: 10.2 KB
+/// per leaf, and 2.2 KB more if albedo varies. Immutable, so any number of threads may use it.
 class FlakeGrid {
 public:
     explicit FlakeGrid(const FlakeField& field);
@@ -30,24 +30,25 @@ public:
     static constexpr std::size_t kFlakes = std::size_t{kSide} * kSide * kSide;
     static constexpr std::uint32_t kNone = LeafTable<3>::kNone;
 
-    /// What is in a cell (i spans voxel centres i and i + 1): a leaf, or how much around it is
-    /// empty.
+    /// Finds the leaf of a cell (cell i spans voxel centres i and i + 1), or the size of the empty
+    /// cube around it.
     [[nodiscard]] LeafTable<3>::LeafLookup find_leaf(Vec3i cell) const { return table_.find(cell); }
-    /// Largest sigma_t in a leaf: per scene unit of the object.
+    /// Returns the largest sigma_t in a leaf, per unit of the object.
     [[nodiscard]] float majorant(std::uint32_t leaf) const { return majorant_[leaf]; }
 
-    /// A place in a leaf: the cell's first flake, and how far into the cell.
+    /// A point in a leaf: the first flake of its cell, and the weights of the cell's corners.
     struct TrilinearLookup {
         std::size_t first;
         std::array<float, 8> weight;
     };
-    /// @param at  from the leaf's corner, cells; in [0, 8]
+    /// Finds the flakes around a point.
+    /// @param at  relative to the leaf's corner, in cells, in [0, 8]
     [[nodiscard]] static TrilinearLookup look_up(std::uint32_t leaf, Vec3f at);
     [[nodiscard]] float sigma_t(std::uint32_t leaf, const TrilinearLookup& at) const;
     [[nodiscard]] SggxMatrix S(const TrilinearLookup& at) const;
     [[nodiscard]] Vec3f albedo(const TrilinearLookup& at) const;
 
-    /// Cells that hold all extinction: [lo, hi).
+    /// Bounds of the cells with extinction: [lo, hi).
     [[nodiscard]] Vec3i lo() const { return lo_; }
     [[nodiscard]] Vec3i hi() const { return hi_; }
     [[nodiscard]] Vec3d voxel_size() const { return voxel_size_; }
@@ -67,31 +68,31 @@ private:
     std::vector<std::array<std::uint8_t, 3>> albedo_;
 };
 
-/// Where a flight ended.
+/// Where a free flight ended.
 struct FlakeHit {
     float t = 0.0f;
-    SggxMatrix S; ///< of the object's axes
+    SggxMatrix S; ///< in the object's axes
     Vec3f albedo{};
 };
 
-/// A FlakeGrid placed in the world: a medium of mirror flakes whose extinction at p along w is
-/// sigma_t(p) sqrt(w^T S(p) w), sigma_t and S interpolated each for itself, as in Mitsuba 3.
+/// A FlakeGrid placed in the world: a medium of microflakes whose extinction at p along w is
+/// sigma_t(p) sqrt(w^T S(p) w). As in Mitsuba 3, sigma_t and S are interpolated separately.
 class FlakeMedium {
 public:
     /// @param to_world  its determinant is not 0
-    /// @param material  of the scene's: named in pictures
+    /// @param material  index among the scene's materials, for the pictures' channel
     FlakeMedium(std::shared_ptr<const FlakeGrid> grid,
                 const Affine& to_world,
                 std::uint32_t material);
 
-    /// Draws where a ray is stopped next: delta tracking, one majorant a leaf.     [Woodcock 1965]
-    /// @return  false: it passes until ray.t_max
+    /// Draws a free flight by delta tracking with one majorant per leaf.     [Woodcock 1965]
+    /// @return  false: the ray passes until ray.t_max
     [[nodiscard]] bool sample_flight(const Ray& ray, StreamRandom& random, FlakeHit& hit) const;
-    /// An estimate of the share of light that passes until ray.t_max, of exact mean: ratio tracking
-    /// [Novak 2014], and Russian roulette where little is left.
+    /// Returns an unbiased estimate of the transmittance until ray.t_max, by ratio tracking
+    /// [Novak 2014] and Russian roulette at low values.
     [[nodiscard]] float transmittance(const Ray& ray, StreamRandom& random) const;
-    /// What a flight hit, in the world.
-    /// @param wi  unit, towards where the ray came from
+    /// Returns the scatterer at a hit, in world space.
+    /// @param wi  unit, towards the origin of the ray
     [[nodiscard]] Scatterer scatterer(const FlakeHit& hit, Vec3f wi) const;
 
     [[nodiscard]] std::uint32_t material() const { return material_; }
@@ -108,7 +109,7 @@ private:
 
     std::shared_ptr<const FlakeGrid> grid_;
     Affine to_object_;
-    bool moved_ = false; ///< its axes are not the world's
+    bool moved_ = false; ///< the object's axes are not the world's
     std::uint32_t material_;
     Bounds bounds_;
     Vec3d per_voxel_{};

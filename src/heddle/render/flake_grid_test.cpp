@@ -11,7 +11,7 @@
 namespace heddle {
 namespace {
 
-/// A ball of fibers that turn with x, radius 5 voxels of size .25, thinner towards -x.
+/// A ball of fibers that turn with x, of radius 5 voxels of size 0.25, thinner towards -x.
 MemoryLevel ball() {
     MemoryLevel grid;
     grid.info().lattice = {{0.25, 0.25, 0.25}, 8};

@@ -15,7 +15,7 @@ float luminance(Vec3f c) {
     return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
 }
 
-/// Place of a direction in the map, both in [0, 1].
+/// Returns the coordinates of a direction in the map, both in [0, 1].
 struct MapPlace {
     float u, v;
 };
@@ -26,7 +26,7 @@ MapPlace place_of(const EnvironmentMap& map, Vec3f d) {
     return {0.5f + turn / (2.0f * kPi), std::acos(std::clamp(dot(d, map.up), -1.0f, 1.0f)) / kPi};
 }
 
-/// Where in a running sum `x` falls; `rest` is how far into that step, in [0, 1).
+/// Finds the step of a running sum that contains `x`; `rest` is the position in it, in [0, 1).
 std::size_t find_step(const float* sums, std::size_t n, float x, float& rest) {
     const float* at = std::upper_bound(sums + 1, sums + n, x);
     const auto i = static_cast<std::size_t>(at - sums) - 1;
@@ -35,7 +35,7 @@ std::size_t find_step(const float* sums, std::size_t n, float x, float& rest) {
     return i;
 }
 
-/// Turns weights into running sums from 0 to 1; equal steps where all are 0.
+/// Replaces weights by running sums from 0 to 1; equal steps if all weights are 0.
 void accumulate(std::vector<float>& sums, std::size_t first, const std::vector<double>& weights) {
     double total = 0.0;
     for (double w : weights) total += w;
@@ -96,7 +96,7 @@ LightSet::LightSet(std::vector<Light> lights, double scene_radius)
         share_.push_back(power);
         total += power;
     }
-    for (float& s : share_) { // half by power, half evenly: no light is forgotten
+    for (float& s : share_) { // half by power, half evenly, so that every light is sampled
         const float even = 1.0f / static_cast<float>(share_.size());
         s = total > 0.0f ? 0.5f * s / total + 0.5f * even : even;
     }

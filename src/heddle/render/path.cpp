@@ -13,14 +13,14 @@ float largest(Vec3f c) {
     return std::max({c.x, c.y, c.z});
 }
 
-/// Share of a technique of density p beside one of density q.       [Veach 1997, power heuristic]
+/// Weight of a technique of density p beside one of density q.      [Veach 1997, power heuristic]
 float power_share(float p, float q) {
     if (!(p > 0.0f)) return 0.0f;
     const float r = q / p;
     return 1.0f / (1.0f + r * r);
 }
 
-/// Where a path scatters next.
+/// The next scattering event of a path.
 struct Event {
     float t = kInfinity;
     Scatterer scatterer;
@@ -72,8 +72,8 @@ public:
     }
 
 private:
-    /// Footprints of scattered rays widen by this per unit of distance where scattering is diffuse:
-    /// a tenth of a hemisphere's, so that light from near voxels is still taken from fine ones.
+    /// Footprints of diffusely scattered rays widen by this per unit of distance: a tenth of a
+    /// hemisphere's width, so that rays still meet fine voxels nearby.
     static constexpr float kDiffuseSpread = 0.2f;
     [[nodiscard]] static float spread_of(float roughness, float spread) {
         return std::max(spread, kDiffuseSpread * roughness);
@@ -134,12 +134,13 @@ private:
         return largest(hit.radiance) > 0.0f;
     }
 
-    /// How far from an event in a volume nothing stops a ray: what it starts on does not shade it,
-    /// and the way it came was free. Voxels that know no places would stop it at once. Chosen by
-    /// brightness against traced geometry (docs/transport.md).
+    /// Returns Ray::clear of a ray that starts in a volume, which prevents self-shadowing: voxels
+    /// do not know where in them their fibers are, and the path that the ray came was free. Fitted
+    /// to the brightness of traced geometry (docs/transport.md).
     [[nodiscard]] static float clear_of(const Event& event, Vec3f wi, Vec3f direction) {
-        constexpr float kRadii = 2.0f;     // of what a fiber shades of itself
-        constexpr float kBackEdges = 6.0f; // the way the ray came, some 17 degrees wide
+        constexpr float kRadii = 2.0f; // extent of a fiber's self-shadowing, in radii
+        constexpr float kBackEdges =
+            6.0f; // voxel edges back along the incoming ray, about 17 degrees wide
         constexpr float kMinCosine = 0.25f;
         if (event.fiber) {
             const float back = std::max(0.0f, dot(wi, direction));
@@ -150,13 +151,13 @@ private:
         return event.edge / std::max(cosine, kMinCosine);
     }
 
-    /// How far a ray from a fiber in a volume runs into the bulk behind the fiber: 1 straight on, 0
-    /// aside and back the way it came. Chosen as clear_of.
+    /// Returns Ray::bulk of a ray from a fiber in a volume: 1 straight on, into the yarn, and 0
+    /// sideways and backwards. Fitted like clear_of.
     [[nodiscard]] static float bulk_of(const Event& event, Vec3f wi, Vec3f direction) {
         return event.fiber ? std::max(0.0f, -dot(wi, direction)) : 0.0f;
     }
 
-    /// A ray that starts at an event, clear of the surface it stands on.
+    /// Returns a ray that starts at an event, offset from its surface.
     [[nodiscard]] static Ray
     leave(const Event& event, Vec3d at, Vec3f wi, Vec3f direction, float width, float spread) {
         const float side = dot(direction, event.normal) < 0.0f ? -event.offset : event.offset;
@@ -178,7 +179,7 @@ private:
         const float share = light.pdf > 0.0f ? power_share(light.pdf, phase.pdf) : 1.0f;
         Ray shadow = leave(event, at, wi, light.direction, width, spread_of(1.0f, 0.0f));
         shadow.t_max = light.distance < kInfinity ? light.distance * 0.9999f : kInfinity;
-        LightHit nearer; // a lamp ends the paths that meet it by chance, so it hides what is behind
+        LightHit nearer; // area lights end paths that hit them, so they occlude other lights too
         if (scene_.lights.intersect(shadow, nearer)) return {};
         return scattered * (share * transmittance(shadow));
     }

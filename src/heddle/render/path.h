@@ -15,7 +15,7 @@
 
 namespace heddle {
 
-/// All that paths run through, in the world. Never changes while a picture is made.
+/// All that light paths traverse, in world space. Does not change while a picture is rendered.
 struct PathScene {
     std::vector<VolumeInstance> volumes;
     std::vector<FlakeMedium> flakes;              ///< beside the volumes
@@ -24,34 +24,35 @@ struct PathScene {
     LightSet lights{{}, 1.0};
 };
 
+/// How light paths are traced.
 struct PathOptions {
-    int max_depth = 64;        ///< scattering events; 0: light that nothing scattered
+    int max_depth = 64;        ///< most scattering events; 0: only unscattered light
     int roulette_depth = 5;    ///< events before Russian roulette
-    int level = -1;            ///< of detail everywhere; -1: by footprint
-    float level_offset = 0.0f; ///< added to the level that a footprint asks for
+    int level = -1;            ///< of detail for all rays; -1: by the footprint of each ray
+    float level_offset = 0.0f; ///< added to the level that the footprint gives
     Transport transport = Transport::Automatic;
-    bool with_transmittance = true; ///< of volumes, exact along each camera ray
+    bool with_transmittance = true; ///< computes PathSample::transmittance
 };
 
-/// What a camera ray met first.
+/// The first scatterer of a camera ray.
 struct FirstHit {
     bool any = false;
     float depth = 0.0f; ///< scene units
     Vec3f axis{};       ///< tangent or normal
     Vec3f albedo{};
     float level = 0.0f;         ///< of detail; 0 for surfaces
-    std::uint32_t material = 0; ///< of PathScene::materials
+    std::uint32_t material = 0; ///< index into PathScene::materials
 };
 
-/// One path.
+/// The result of one path.
 struct PathSample {
     Vec3f radiance{};
-    float transmittance = 1.0f; ///< of the camera ray, through everything
+    float transmittance = 1.0f; ///< of the whole camera ray, through all objects
     FirstHit first;
 };
 
-/// Follows light backwards from a camera ray: next-event estimation and scattering, weighed against
-/// each other by the power heuristic [Veach 1997]; Russian roulette by throughput.
+/// Traces a path from the camera: next-event estimation and scattering, combined by the power
+/// heuristic [Veach 1997]; Russian roulette by throughput.
 [[nodiscard]] PathSample
 trace_path(const PathScene& scene, const PathOptions& options, Ray ray, PathSampler& sampler);
 

@@ -18,8 +18,8 @@ namespace detail {
     return ((x & 0x55555555u) << 1) | ((x & 0xaaaaaaaau) >> 1);
 }
 
-/// A nested uniform scramble in base 2: each bit flips by the bits above it.    [Owen 1995; Burley
-/// 2020]
+/// Scrambles x in base 2 (nested, uniform): each bit is flipped depending on the bits above it.
+/// [Owen 1995; Burley 2020]
 [[nodiscard]] constexpr std::uint32_t owen_scramble(std::uint32_t x, std::uint32_t seed) {
     x = reverse_bits(x);
     x ^= x * 0x3d20adeau;
@@ -30,7 +30,7 @@ namespace detail {
     return reverse_bits(x);
 }
 
-/// Second dimension of Sobol's sequence; the first is reverse_bits(i).
+/// Returns the second dimension of Sobol's sequence; the first is reverse_bits(i).
 [[nodiscard]] constexpr std::uint32_t sobol_second(std::uint32_t i) {
     std::uint32_t out = 0;
     for (std::uint32_t v = 1u << 31; i != 0; i >>= 1, v ^= v >> 1) {
@@ -41,8 +41,8 @@ namespace detail {
 
 } // namespace detail
 
-/// The numbers of one path: pairs of Owen-scrambled Sobol points, each pair shuffled on its own
-/// ("padded"), for the first dimensions; a hash stream behind them.                 [Burley 2020]
+/// The random numbers of one path: Owen-scrambled Sobol pairs, each shuffled independently
+/// ("padded"), for the first dimensions; then a stream of hashes.                   [Burley 2020]
 ///
 /// Deterministic in (seed, pixel, sample): pictures do not depend on threads.
 class PathSampler {
@@ -58,7 +58,7 @@ public:
         const std::uint64_t keys = hash64(pixel_, pairs_++);
         const auto low = static_cast<std::uint32_t>(keys);
         const auto high = static_cast<std::uint32_t>(keys >> 32);
-        // aligned runs of 2^k samples stay aligned runs: each is a (0, k, 2) net of its own
+        // aligned runs of 2^k samples stay aligned runs, so each is a (0, k, 2) net
         const std::uint32_t index = detail::owen_scramble(sample_, low);
         return {to_float(detail::owen_scramble(detail::reverse_bits(index), high)),
                 to_float(detail::owen_scramble(detail::sobol_second(index), high ^ 0x9e3779b9u))};
@@ -68,11 +68,11 @@ public:
         const auto [a, b] = pair();
         return {a, b, one()};
     }
-    /// Numbers whose count is not known beforehand.
+    /// Random numbers for loops whose length is not known beforehand.
     [[nodiscard]] StreamRandom& stream() { return stream_; }
 
 private:
-    static constexpr std::uint32_t kPadded = 16; ///< pairs: pixel, lens, and three events
+    static constexpr std::uint32_t kPadded = 16; ///< pairs for the pixel, the lens and three events
     [[nodiscard]] static float to_float(std::uint32_t bits) {
         return static_cast<float>(bits >> 8) * 0x1p-24f;
     }

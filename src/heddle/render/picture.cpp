@@ -14,7 +14,7 @@ double luminance(double r, double g, double b) {
     return 0.2126 * r + 0.7152 * g + 0.0722 * b;
 }
 
-/// Variance of the mean luminance; 0 before two samples.
+/// Returns the variance of the mean luminance; 0 with fewer than two samples.
 double variance_of_mean(const PixelSums& p) {
     if (p.samples < 2) return 0.0;
     const double n = p.samples;
@@ -22,12 +22,12 @@ double variance_of_mean(const PixelSums& p) {
     return std::max(0.0, (p.square / n - mean * mean) / (n - 1.0));
 }
 
-/// As channels_of says.
+/// Returns the channel `axis`, as channels_of describes it.
 Vec3d mean_axis(const PixelSums& p) {
     if (p.hits == 0) return {};
     const Vec3d d = decompose(p.axes).axis[0];
     const Vec3d sum = to_double(p.axis);
-    const bool sided = length(sum) > 0.5 * p.hits; // axes of random sign sum to far less
+    const bool sided = length(sum) > 0.5 * p.hits; // axes of random sign have a far smaller sum
     const int most = std::fabs(d.x) > std::fabs(d.y) ? (std::fabs(d.x) > std::fabs(d.z) ? 0 : 2)
                                                      : (std::fabs(d.y) > std::fabs(d.z) ? 1 : 2);
     return d * ((sided ? dot(sum, d) : d[most]) < 0.0 ? -1.0 : 1.0);

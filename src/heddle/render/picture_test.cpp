@@ -117,7 +117,7 @@ TEST(Picture, BytesFollowTheSrgbCurve) {
     const std::vector<std::uint8_t> bytes = to_srgb8(picture, 0.0);
     ASSERT_EQ(bytes.size(), 20u);
     EXPECT_EQ(bytes[0], 0);
-    EXPECT_EQ(bytes[4], 7); // 12.92 x .002 x 255
+    EXPECT_EQ(bytes[4], 7); // 12.92 x 0.002 x 255
     EXPECT_EQ(bytes[8], 128);
     EXPECT_EQ(bytes[12], 255);
     EXPECT_EQ(bytes[16], 255);

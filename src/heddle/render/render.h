@@ -9,11 +9,11 @@
 
 namespace heddle {
 
-/// Adds samples [picture's, samples) to every pixel, on all threads.
+/// Adds samples to every pixel, on all threads, until each has `samples`.
 ///
-/// A pixel's samples are the same whatever came before them: a picture made in passes, resumed, or
-/// on any number of threads has the same bits.
-/// @param samples  per pixel, in all
+/// Each sample depends only on the seed, the pixel and its number, so a picture that is rendered in
+/// passes, resumed, or on any number of threads has the same bits.
+/// @param samples  per pixel, in total
 /// @throws Error   Cancelled: the picture then holds no sample of the unfinished pass
 void render_pass(const PathScene& scene,
                  const Camera& camera,

@@ -7,13 +7,14 @@
 
 namespace heddle {
 
-/// Keeps a picture's sums, so that a render that was stopped goes on with the same bits.
-/// @param hash  of all that the picture depends on
+/// Saves a picture's sums, so that a cancelled render can continue and give the same bits.
+/// @param hash    of all inputs on which the picture depends
 /// @throws Error  CannotWrite
 void write_checkpoint(const std::string& path, std::uint64_t hash, const Picture& picture);
 
-/// @param width, height  px, that the picture has now
-/// @throws Error  NotFound; BadFile: cut, not a checkpoint, or of another scene or size
+/// Reads a checkpoint and checks that it is of this scene and size.
+/// @param width, height  expected size, px
+/// @throws Error  NotFound; BadFile: truncated, not a checkpoint, or of another scene or size
 [[nodiscard]] Picture read_checkpoint(const std::string& path,
                                       std::uint64_t hash,
                                       std::int32_t width,

@@ -7,8 +7,8 @@
 
 namespace heddle {
 
-/// A scene's lights, environment maps read; where the scene has none, a grey sky and a sun.
-/// @param up  of environment maps
+/// Returns a scene's lights with their environment maps; a grey sky and a sun if there are none.
+/// @param up      upward direction of environment maps
 /// @throws Error  NotFound; BadFile: not an image, or not twice as wide as high
 [[nodiscard]] std::vector<Light> load_lights(const Scene& scene, Vec3d up);
 

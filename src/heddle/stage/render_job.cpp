@@ -23,18 +23,18 @@ double since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-constexpr double kSaveEvery = 20.0; // seconds between pictures written on the way
+constexpr double kSaveEvery = 20.0; // seconds between two writes of the unfinished picture
 
-/// How far a job has come.
+/// The progress of a job.
 struct JobProgress {
     std::uint32_t samples = 0; ///< per pixel
-    std::uint32_t resumed = 0; ///< of these, from a checkpoint
+    std::uint32_t resumed = 0; ///< how many of these came from a checkpoint
     double spent = 0.0;        ///< seconds, of the whole job
-    double each = 0.0;         ///< seconds a sample takes; 0: not known yet
+    double each = 0.0;         ///< seconds per sample; 0: not known yet
 };
 
-/// Samples per pixel that the picture should have after the next pass: twice as many, but no more
-/// than fit into the time until the next save or the end, or than the noise seems to need.
+/// Returns the samples per pixel after the next pass: twice as many, but no more than fit into the
+/// time until the next save or the end, or than the noise limit is expected to need.
 std::uint32_t next_target(const JobProgress& at, const Picture& picture, const RenderJob& job) {
     const double samples = at.samples;
     double more = std::max(1.0, samples - at.resumed);
@@ -51,12 +51,12 @@ std::uint32_t next_target(const JobProgress& at, const Picture& picture, const R
 
 bool is_done(const JobProgress& at, const Picture& picture, const RenderJob& job) {
     if (at.samples >= job.samples) return true;
-    // half a sample more than the time is as near as half a sample less
+    // rounds to the nearest number of samples
     if (job.seconds > 0.0 && at.samples > 0 && at.spent + 0.5 * at.each >= job.seconds) return true;
     return job.noise > 0.0 && at.samples >= 4 && picture.noise() <= job.noise;
 }
 
-/// What all passes of a job share.
+/// The arguments of all passes of a job.
 struct Passes {
     Stage& stage;
     const PathOptions& options;
@@ -72,8 +72,8 @@ void add_pass(const Passes& with, std::uint32_t from, std::uint32_t until, Pictu
                 with.progress);
 }
 
-/// Reads the levels that are not there yet, then adds passes until the job is done.
-/// @param save  keeps the picture on the way; called now and then, and where it is cancelled
+/// Reads the missing levels, then adds passes until the job is done.
+/// @param save  writes the unfinished picture; called from time to time and on cancellation
 void render_passes(const Passes& with,
                    const RenderJob& job,
                    Clock::time_point start,

@@ -9,17 +9,17 @@
 
 namespace heddle {
 
-/// When a picture is finished, and where it goes.
+/// When a picture is finished, and where it is written.
 struct RenderJob {
     std::string output;           ///< .exr or .png
-    std::int64_t samples = 64;    ///< per pixel: stops there
-    double seconds = 0.0;         ///< 0: no limit; of the whole job, kept to half a sample
-    double noise = 0.0;           ///< 0: no limit; Picture::noise
-    double exposure = 0.0;        ///< stops, of a .png
+    std::int64_t samples = 64;    ///< per pixel
+    double seconds = 0.0;         ///< limit for the whole job, within half a sample; 0: none
+    double noise = 0.0;           ///< stops below this Picture::noise; 0: no limit
+    double exposure = 0.0;        ///< of a .png, in stops (factors of two)
     bool all_channels = true;     ///< of an .exr
-    bool resume = false;          ///< go on from OUTPUT.checkpoint
-    std::uint64_t scene_hash = 0; ///< a checkpoint of another one is refused
-    std::string command;          ///< goes into the picture
+    bool resume = false;          ///< continues from OUTPUT.checkpoint
+    std::uint64_t scene_hash = 0; ///< a checkpoint with another hash is refused
+    std::string command;          ///< is stored in the picture
 };
 
 /// What a job did.
@@ -27,17 +27,17 @@ struct RenderOutcome {
     std::int64_t samples = 0;      ///< per pixel
     std::int64_t resumed_from = 0; ///< samples that the checkpoint held
     double noise = 0.0;
-    double first_picture_seconds = 0.0; ///< until a coarse picture stood in `output`
-    double render_seconds = 0.0;        ///< in passes
-    double load_seconds = 0.0;          ///< in levels read after the first picture
+    double first_picture_seconds = 0.0; ///< until a coarse picture was in `output`
+    double render_seconds = 0.0;        ///< spent in passes
+    double load_seconds = 0.0;          ///< spent on levels that were read after the first picture
 };
 
-/// Renders in passes of twice as many samples each time, writes the picture now and then and a
-/// checkpoint beside it, which goes when the picture is done.
+/// Renders in passes, each of which doubles the samples. From time to time writes the picture and a
+/// checkpoint, which is removed when the picture is finished.
 ///
-/// A coarse picture comes first, from the levels that are there already; its samples do not count.
-/// @throws Error  Cancelled: the picture so far and its checkpoint stay; NotFound: nothing to
-///                resume; BadFile: a checkpoint that is damaged or of another scene; CannotWrite
+/// First writes a coarse picture of the levels that are already loaded; its samples are discarded.
+/// @throws Error  Cancelled: the unfinished picture and its checkpoint remain; NotFound: there is
+///                no checkpoint; BadFile: it is damaged or of another scene; CannotWrite
 RenderOutcome render_to_file(Stage& stage,
                              const PathOptions& options,
                              std::uint64_t seed,
@@ -46,9 +46,9 @@ RenderOutcome render_to_file(Stage& stage,
                              const RenderJob& job,
                              Progress& progress);
 
-/// The same passes without a file: no coarse picture, no checkpoint.
-/// @param job      its output, exposure and resume are not looked at
-/// @param picture  without a sample; holds whole passes alone where this throws
+/// Renders the same passes without a file, a coarse picture or a checkpoint.
+/// @param job      its output, exposure and resume are ignored
+/// @param picture  without samples; after an exception, holds only complete passes
 /// @throws Error   Cancelled
 RenderOutcome render_in_memory(Stage& stage,
                                const PathOptions& options,
@@ -57,7 +57,7 @@ RenderOutcome render_in_memory(Stage& stage,
                                Picture& picture,
                                Progress& progress);
 
-/// Writes a picture as .exr (half floats but for depth, samples and variance) or .png.
+/// Writes a picture as .exr (half floats; depth, samples and variance as floats) or .png.
 void write_picture(const Picture& picture, const RenderJob& job);
 
 } // namespace heddle

@@ -27,7 +27,7 @@ public:
         whole(static_cast<std::int64_t>(s.size()));
         for (const char c : s) value_ = hash64(value_, static_cast<unsigned char>(c));
     }
-    /// A path with its file's size and time; what is no file, as a preset's name, is a text.
+    /// Adds a path with the size and time of its file; without a file (a preset), the text alone.
     void file(const std::string& path) {
         text(path);
         std::error_code error;

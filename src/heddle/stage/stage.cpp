@@ -20,12 +20,12 @@ bool is_traced(const SceneObject& object, const StageOptions& options) {
     return object.volume.empty() || (options.geometry && explicit_too);
 }
 
-/// Largest factor by which a transform lengthens.
+/// Returns the largest factor by which a transform changes a length.
 double scale_of(const Affine& a) {
     return std::max({length(a.x), length(a.y), length(a.z)});
 }
 
-/// Least distance from a point to a box.
+/// Returns the distance from a point to a box.
 double distance_to(const Bounds& box, Vec3d p) {
     Vec3d away{};
     for (int a = 0; a < 3; ++a) away[a] = std::max({box.lo[a] - p[a], p[a] - box.hi[a], 0.0});
@@ -62,7 +62,7 @@ Stage::Stage(const Scene& scene, const StageOptions& options, Progress& progress
     trace_geometry(scene, options, progress);
     for (OpenVolume& volume : open_) read_level(volume);
     rebuild_volumes();
-    if (scene.camera) { // it says which levels are needed; else their bounds say where it stands
+    if (scene.camera) { // it gives the levels that are needed; else the levels' bounds place it
         place_camera(scene);
         choose_levels();
     }
@@ -186,7 +186,7 @@ void Stage::place_camera(const Scene& scene) {
         view_.view_height = from.view_height;
         view_.lens_radius = from.lens_radius;
         view_.focus_distance = from.focus_distance;
-    } else { // three quarters from the front, from above; flat things are looked at from their face
+    } else { // three-quarter view from above; flat objects are seen from the front
         const Vec3d size = bounds().size();
         Vec3d from{0.5, 0.35, 1.0};
         if (size.z < 0.5 * std::min(size.x, size.y)) from = {0.25, -0.8, 1.0};
@@ -196,9 +196,9 @@ void Stage::place_camera(const Scene& scene) {
     camera_ = std::make_unique<Camera>(view_, width_, height_);
 }
 
-/// No ray asks for a level finer than that of the narrowest footprint on the object's box: a
-/// corner's ray, which widens least, at the box's least distance. Scattered rays are wider than
-/// what they leave.
+/// Finds the finest level that rays need: that of the narrowest footprint on the object's box. This
+/// is of a ray through a corner of the picture, which widens least, at the distance of the box.
+/// Scattered rays are wider than the rays from which they come.
 void Stage::choose_levels() {
     const Ray corner = camera_->ray(0.0f, 0.0f, {0.0f, 0.0f});
     std::size_t at = 0;
@@ -229,7 +229,7 @@ bool Stage::read_next(std::int64_t most_voxels) {
     if (coarsest == nullptr) return false;
     read_level(*coarsest);
     rebuild_volumes();
-    if (camera_) choose_levels(); // a finer level's box is tighter, and may be farther away
+    if (camera_) choose_levels(); // the box of a finer level is tighter and may be farther away
     return true;
 }
 

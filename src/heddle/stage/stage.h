@@ -15,23 +15,26 @@
 
 namespace heddle {
 
+/// How a scene is loaded.
 struct StageOptions {
     bool geometry = false; ///< objects that have explicit geometry are traced, not their volumes
     float level_offset = 0.0f; ///< PathOptions::level_offset: below 0, finer levels are needed
-    /// Levels of up to so many voxels are read at once: before a picture could be missed.
+    /// Levels of up to this many voxels are read by the constructor, which takes little time.
     std::int64_t coarse_voxels = 400'000;
-    bool flakes = false; ///< volumes are FlakeMedia of the forced level, or of the finest
+    bool flakes = false; ///< makes FlakeMedia of the forced level, or of the finest
 };
 
-/// A scene made ready: geometry loaded, lights and camera placed, volumes open with their coarse
-/// levels read. Finer levels come one at a time, and only those that the camera can ask for.
+/// A scene that is ready to be rendered: geometry is loaded, lights and camera are placed, and the
+/// coarse levels of volumes are read. Finer levels are read one at a time, as far as camera rays
+/// need them.
 class Stage {
 public:
-    /// @throws Error  as the readers; BadFile: a level that does not exist, a volume without voxels
+    /// Loads the scene, with coarse levels only.
+    /// @throws Error  as the readers; BadFile: a level does not exist, or a volume has no voxels
     Stage(const Scene& scene, const StageOptions& options, Progress& progress);
 
-    /// Reads the next finer level of a volume, coarsest first. @return false: all that is needed is
-    /// there
+    /// Reads the next finer level of a volume, coarsest first.
+    /// @return  false: all levels that are needed are loaded
     bool load_next_level() { return read_next(std::numeric_limits<std::int64_t>::max()); }
 
     [[nodiscard]] const PathScene& scene() const { return scene_; }
@@ -41,7 +44,7 @@ public:
     [[nodiscard]] std::int64_t byte_count() const; ///< of levels and geometry
 
 private:
-    /// A .vdb and where it stands.
+    /// A .vdb and its instances.
     struct OpenVolume {
         std::string path;
         TraversalLevels pyramid;
@@ -58,7 +61,7 @@ private:
     void place_camera(const Scene& scene);
     void choose_levels();
     void read_level(OpenVolume& volume);
-    /// Reads the coarsest level that is wanted, not there, and of at most so many voxels.
+    /// Reads the coarsest level that is needed, not loaded, and has at most `most_voxels` voxels.
     bool read_next(std::int64_t most_voxels);
     void rebuild_volumes();
     [[nodiscard]] std::uint32_t
@@ -70,7 +73,7 @@ private:
     Bounds surface_bounds_;
     CameraParameters view_;
     std::unique_ptr<Camera> camera_;
-    std::int64_t flake_bytes_ = 0; ///< of all grids; instances share theirs
+    std::int64_t flake_bytes_ = 0; ///< of all FlakeGrids, which instances share
     std::int32_t width_ = 0, height_ = 0;
     int level_ = -1; ///< forced
     float level_offset_ = 0.0f;

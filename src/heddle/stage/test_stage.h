@@ -11,8 +11,8 @@
 
 namespace heddle::testing {
 
-/// A slab of 32 x 32 x 4 voxels of .1 about the origin's x and y, with all levels: 4096, 512, 64,
-/// 16, 4 voxels.
+/// Returns a slab of 32 x 32 x 4 voxels of size 0.1, centered in x and y, with all levels: 4096,
+/// 512, 64, 16 and 4 voxels.
 inline VoxelLevels make_slab(const std::vector<Material>& materials) {
     VoxelLevels levels;
     for (int level = 0; level < 5; ++level) {
@@ -49,7 +49,7 @@ inline Material named(const std::string& name, Vec3f albedo = {0.5f, 0.5f, 0.5f}
     return material;
 }
 
-/// A scene of the slab alone, as a .vdb in the folder; no camera.
+/// Writes the slab as a .vdb into the folder; returns a scene of it without a camera.
 inline Scene slab_scene(const TempFolder& folder,
                         const std::vector<Material>& materials = {named("wool")}) {
     const std::string path = folder.file("slab.vdb");
@@ -65,7 +65,7 @@ inline Scene slab_scene(const TempFolder& folder,
     return scene;
 }
 
-/// A camera in front of the slab from which a pixel is `voxels` voxels wide on it.
+/// Returns a camera in front of the slab whose pixels are `voxels` voxels wide on it.
 inline SceneCamera camera_at(const Scene& scene, double voxels) {
     SceneCamera camera;
     const double pixel =
@@ -74,7 +74,7 @@ inline SceneCamera camera_at(const Scene& scene, double voxels) {
     return camera;
 }
 
-/// Finest level that was read; -1: none.
+/// Returns the finest level that was read; -1: none.
 inline int finest_read(const Stage& stage) {
     const TraversalLevels& pyramid = stage.scene().volumes.at(0).pyramid();
     for (std::size_t l = 0; l < pyramid.size(); ++l) {

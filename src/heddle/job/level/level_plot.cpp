@@ -6,8 +6,8 @@
 namespace heddle::job {
 namespace {
 
-/// A colour that people tell apart whatever colours they see [Okabe and Ito 2008], and a wide grey
-/// line for the file's own levels, which others cover.
+/// Returns a colour that colour-blind people can tell apart too [Okabe and Ito 2008], and a wide
+/// grey line, on which others remain visible, for the file's own levels.
 PlotLine line_of(const std::string& name) {
     static const std::vector<std::pair<std::string, std::string>> colors{
         {"moments", "#0072b2"}, {"wasserstein", "#e69f00"}, {"single", "#d55e00"},

@@ -8,10 +8,11 @@
 
 namespace heddle::job {
 
-/// Errors of projected area, of densities and, where it is known, of coverage by level.
+/// Returns plots, over the levels, of the errors of projected area, of densities and, if known, of
+/// coverage.
 [[nodiscard]] std::vector<PlotPanel> panels_of(const LevelTable& table);
 
-/// These panels as an SVG.
+/// Returns an SVG of panels_of(table).
 [[nodiscard]] std::string plot_levels(const LevelTable& table);
 
 } // namespace heddle::job

@@ -18,10 +18,10 @@
 namespace heddle::job {
 namespace {
 
-/// Voxels of the part that `wasserstein` is measured on unless another is asked for.
+/// Default number of voxels of the part that is measured if `wasserstein` is among the methods.
 constexpr std::int64_t kSlowPart = 50000;
-/// What `wasserstein` takes for a finest voxel on two cores, all levels: 5 ms a parent, measured on
-/// 7,646 voxels of a cable knit.
+/// Time that `wasserstein` takes on two cores for all levels, per voxel of level 0: 5 ms a parent,
+/// measured on 7,646 voxels of a cable knit.
 constexpr double kSlowSeconds = 1.3e-3;
 
 void check_measure_options(const MeasureLevelsOptions& o) {
@@ -33,7 +33,7 @@ void check_measure_options(const MeasureLevelsOptions& o) {
     if (o.plot) check_output(*o.plot, ".svg", "plot");
 }
 
-/// Each method once.
+/// Returns the methods without repetition.
 std::vector<LodMethod> distinct(const std::vector<LodMethod>& methods) {
     std::vector<LodMethod> out;
     for (const LodMethod method : methods) {
@@ -46,7 +46,7 @@ bool is_slow(const std::vector<LodMethod>& methods) {
     return std::find(methods.begin(), methods.end(), LodMethod::Wasserstein) != methods.end();
 }
 
-/// Bytes by level from 0.
+/// Bytes per level from 0.
 std::vector<std::int64_t> bytes_of(const std::vector<GridSummary>& grids) {
     std::vector<std::int64_t> out;
     for (const GridSummary& grid : grids) {
@@ -57,14 +57,14 @@ std::vector<std::int64_t> bytes_of(const std::vector<GridSummary>& grids) {
     return out;
 }
 
-/// The grids of a .vdb that the levels would be.
+/// Returns the grids that a .vdb of these levels has.
 std::vector<GridSummary> weigh(const VoxelLevels& levels, Progress& progress) {
     const ScratchFolder folder;
     write_output([&] { write_vdb(levels, folder.file(), progress); });
     return summarize_vdb(folder.file());
 }
 
-/// Bytes in a file of the levels above 0, which are written for it under an empty level 0.
+/// Returns the bytes that the levels above 0 have in a file: writes them with an empty level 0.
 std::vector<std::int64_t> weigh_above(VoxelLevels levels, Progress& progress) {
     auto finest = std::make_unique<MemoryLevel>();
     finest->info() = levels[0]->info();
@@ -74,7 +74,7 @@ std::vector<std::int64_t> weigh_above(VoxelLevels levels, Progress& progress) {
     return bytes_of(weigh(levels, progress));
 }
 
-/// The finest level and what lies above it: all, or a part without levels.
+/// What is measured: all levels of the input, or a part of its finest level.
 struct Scope {
     const VoxelLevels& whole;
     std::unique_ptr<LevelSubset> part;
@@ -138,7 +138,7 @@ MethodRow build(const Scope& scope,
     return {seconds, weigh_above(std::move(levels), clock), {}};
 }
 
-/// Says what the numbers stand for, so that a table can be read alone.
+/// Fills in what is measured, so that the table is complete without its input.
 void describe(const Scope& scope, const std::vector<GridSummary>& grids, LevelTable& table) {
     const VoxelLevelInfo& whole = scope.whole[0]->info();
     table.lod = whole.lod;
@@ -171,7 +171,7 @@ void measure_methods(const Scope& scope,
     for (std::size_t m = 0; m < errors.size(); ++m) table.methods[m].errors = std::move(errors[m]);
 }
 
-/// @param path  of the levels; empty: they are weighed by writing them
+/// @param path  file of the levels; empty: they are written to find their size
 LevelTable measure(const VoxelLevels& levels,
                    const std::string& path,
                    const MeasureLevelsOptions& options,

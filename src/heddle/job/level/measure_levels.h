@@ -14,29 +14,30 @@ namespace heddle::job {
 
 /// How levels of detail are measured. Nothing is required.
 struct MeasureLevelsOptions {
-    /// levels are built by each of these
+    /// levels are built by each of these methods
     std::vector<LodMethod> methods{LodMethod::Moments, LodMethod::Single, LodMethod::Naive,
                                    LodMethod::Random, LodMethod::Interpolate};
-    int parents = 2000; ///< voxels of a level that are measured, at most, >= 1
+    int parents = 2000; ///< most voxels that are measured per level, >= 1
     std::optional<std::int64_t>
-        part{};                 ///< voxels of the finest level that all is built and measured
-                                ///< on, about; none: all, 50,000 with `wasserstein`
-    std::optional<int> lobes{}; ///< most in a voxel of the built levels, 1 to 8; none: as there is
+        part{}; ///< about how many voxels of the finest level are used; none:
+                ///< all, or 50,000 with the method `wasserstein`
+    std::optional<int>
+        lobes{}; ///< most per voxel of the built levels, 1 to 8; none: as in the input
     std::uint64_t seed = 0;
     std::optional<std::string> plot{}; ///< path of an .svg that shows the errors by level
 };
 
-/// What was found of one method, or of the levels that are there.
+/// The results of one method, or of the levels that the input has.
 struct MethodRow {
-    std::optional<double> build_seconds{}; ///< all levels, one pass; none of those that are there
-    std::vector<std::int64_t> bytes{};     ///< of the grids in a .vdb, by level from 0
+    std::optional<double> build_seconds{}; ///< all levels, one pass; none: those of the input
+    std::vector<std::int64_t> bytes{};     ///< of the grids in a .vdb, per level from 0
     MethodErrors errors{};
 
     [[nodiscard]] std::int64_t bytes_at(int level) const {
         const auto at = static_cast<std::size_t>(level);
         return at < bytes.size() ? bytes[at] : 0;
     }
-    /// Of all levels above 0.
+    /// Returns the bytes of all levels above 0.
     [[nodiscard]] std::int64_t bytes_above() const {
         std::int64_t sum = 0;
         for (std::size_t l = 1; l < bytes.size(); ++l) sum += bytes[l];
@@ -44,33 +45,33 @@ struct MethodRow {
     }
 };
 
-/// What was found of all.
+/// The results of all methods.
 struct LevelTable {
     std::string file{};       ///< path; empty: in memory
-    std::string lod{};        ///< method by which its own levels were built
-    bool approximate = false; ///< it has no sums: levels are built from stored lobes
+    std::string lod{};        ///< method by which the input's levels were built
+    bool approximate = false; ///< the input has no sums, so levels are built from lobes
     CoverageTruth coverage = CoverageTruth::None;
-    std::int64_t voxels = 0; ///< of the finest level, in the part
+    std::int64_t voxels = 0; ///< of the finest level, in the part that is measured
     std::int64_t lobes = 0;
-    std::int64_t part_of = 0;               ///< voxels of the whole; 0: nothing was left out
-    std::int64_t finest_bytes = 0;          ///< level 0 of the whole without columns and sums
-    std::int64_t mask_bytes = 0;            ///< its columns and sums
-    std::vector<std::int64_t> file_bytes{}; ///< by level
-    std::vector<MethodRow> methods{};       ///< "file" first unless there is a part
+    std::int64_t part_of = 0;               ///< voxels of the whole level; 0: all were measured
+    std::int64_t finest_bytes = 0;          ///< whole level 0 without columns and sums
+    std::int64_t mask_bytes = 0;            ///< columns and sums of the whole level 0
+    std::vector<std::int64_t> file_bytes{}; ///< per level
+    std::vector<MethodRow> methods{};       ///< "file" first, unless only a part is measured
     std::vector<std::string> notes{};
     StageTimes stages{};
     std::int64_t peak_bytes = 0; ///< resident, of the process so far
 };
 
-/// Measures an object's levels of detail, and those that other methods build, against the finest.
+/// Compares an object's levels, and levels that each method builds, with the finest level.
 /// @param levels  finest first, at least two
-/// @throws OptionError  a number out of range; a part with no level above it
+/// @throws OptionError  a number is out of range; the part is too small for a level above it
 /// @throws Error        CannotWrite: no folder for temporary files; Cancelled
 [[nodiscard]] LevelTable
 measure_levels(const VoxelLevels& levels, const MeasureLevelsOptions& options, Progress& progress);
 
-/// The same of a .vdb.
-/// @throws Error  also as read_levels; BadFile: it has the finest level alone
+/// Compares the levels of a .vdb.
+/// @throws Error  also as read_levels; BadFile: the file has only the finest level
 [[nodiscard]] LevelTable
 measure_levels(const std::string& path, const MeasureLevelsOptions& options, Progress& progress);
 

@@ -22,12 +22,12 @@ LodOptions asked_levels(const RebuildLevelsOptions& options) {
     return lod;
 }
 
-/// The file's levels, and those that are built while the old ones are there.
-/// @throws Error  OutOfMemory
+/// Checks that memory holds the levels of the file and, at the same time, the new ones.
+/// @throws Error  OutOfMemory: it does not
 void check_memory(const std::vector<VoxelLevelInfo>& infos, const std::string& path) {
     std::int64_t needed = std::int64_t{64} << 20;
     for (const VoxelLevelInfo& info : infos) {
-        const std::int64_t leaves = info.voxel_count / 16; // of 512 voxels, thinly filled
+        const std::int64_t leaves = info.voxel_count / 16; // sparsely filled: 16 of 512 voxels
         const std::int64_t bytes =
             predict_block_bytes(leaves, info.voxel_count, info.lobe_count, info.fields);
         needed += info.level == 0 ? bytes : 2 * bytes;
@@ -36,7 +36,7 @@ void check_memory(const std::vector<VoxelLevelInfo>& infos, const std::string& p
     throw Error(ErrorCode::OutOfMemory,
                 str("its levels need about ", needed >> 20, " MiB, but only ",
                     available_bytes() >> 20, " MiB are free"),
-                "free some memory, or use a machine with more", {.path = path});
+                "free some memory, or use a machine with more memory", {.path = path});
 }
 
 void report_levels(const VoxelLevels& levels, RebuildLevelsReport& report, Progress& progress) {

@@ -11,15 +11,16 @@
 
 namespace heddle::job {
 
-/// How levels of detail are built again. Nothing is required.
+/// How the levels of an object are rebuilt. Nothing is required.
 struct RebuildLevelsOptions {
     LodMethod lod = LodMethod::Moments;
-    std::optional<int> levels{}; ///< above the finest, at most; none: all
-    std::optional<int> lobes{};  ///< most in a voxel above the finest, 1 to 8; none: as the finest
-    bool exact = false;          ///< refuses what has no masks: its levels would be approximate
+    std::optional<int> levels{}; ///< most levels above the finest; none: all
+    std::optional<int> lobes{};  ///< most per voxel above level 0, 1 to 8; none: as in level 0
+    bool exact = false;          ///< refuses an input without columns and sums
     std::uint64_t seed = 0;
 };
 
+/// What was built.
 struct RebuildLevelsReport {
     LevelCounts counts{};
     bool approximate = false; ///< the levels were built from stored lobes, not from sums
@@ -29,22 +30,23 @@ struct RebuildLevelsReport {
     std::int64_t peak_bytes = 0; ///< resident, of the process so far
 };
 
+/// The rebuilt levels in memory.
 struct RebuildLevelsResult {
     VoxelLevels levels{}; ///< finest first
     RebuildLevelsReport report{};
 };
 
-/// Builds the levels over the finest one again.
-/// @param levels  finest first, at least one; taken apart
-/// @throws OptionError  a number out of range; `exact` without masks
+/// Builds all levels above the finest one anew.
+/// @param levels  finest first, at least one; the others are discarded
+/// @throws OptionError  a number is out of range; `exact` without columns and sums
 /// @throws Error        Cancelled
 [[nodiscard]] RebuildLevelsResult
 rebuild_levels(VoxelLevels levels, const RebuildLevelsOptions& options, Progress& progress);
 
-/// The same from a .vdb into one, which may be the same.
-/// @throws OptionError  a number out of range
-/// @throws Error        as read_levels; BadFile: `exact` without masks; OutOfMemory, CannotWrite,
-///                      Cancelled
+/// Rebuilds the levels of a .vdb and writes a .vdb, which may replace the input.
+/// @throws OptionError  a number is out of range; another suffix than .vdb
+/// @throws Error        as read_levels; BadFile: `exact` without columns and sums; OutOfMemory,
+///                      CannotWrite, Cancelled
 RebuildLevelsReport rebuild_levels_to_file(const std::string& path,
                                            const std::string& output,
                                            const RebuildLevelsOptions& options,

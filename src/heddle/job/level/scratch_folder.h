@@ -8,7 +8,7 @@
 
 namespace heddle::job {
 
-/// A folder for what is written to be weighed; gone with this.
+/// A temporary folder for the files whose size is measured. The destructor removes it.
 class ScratchFolder {
 public:
     /// @throws Error  CannotWrite

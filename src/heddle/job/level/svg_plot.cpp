@@ -12,9 +12,9 @@ namespace {
 constexpr int kPanelWidth = 420; // px, with its labels
 constexpr int kPanelHeight = 330;
 constexpr int kLegendHeight = 36;
-constexpr int kLeft = 66, kRight = 14, kTop = 40, kBottom = 50; // of a panel's frame
+constexpr int kLeft = 66, kRight = 14, kTop = 40, kBottom = 50; // margins of a panel, px
 
-/// The label at or above a value, or at or below it: 1, 2 or 5 times a power of ten.
+/// Returns the next label >= value, or <= value if `below`: 1, 2 or 5 times a power of ten.
 double label_above(double value, bool below = false) {
     const double power = std::pow(10.0, std::floor(std::log10(value)));
     double last = power;
@@ -27,7 +27,7 @@ double label_above(double value, bool below = false) {
     return 10.0 * power;
 }
 
-/// Labels that reach from at or below `lo` to `hi`; evenly from 0 unless logarithmic.
+/// Returns labels whose range includes `lo` and `hi`; evenly spaced from 0 unless logarithmic.
 std::vector<double> labels_for(double lo, double hi, bool logarithmic) {
     if (!logarithmic) {
         const double step = label_above(hi / 5.0);
@@ -42,10 +42,10 @@ std::vector<double> labels_for(double lo, double hi, bool logarithmic) {
     return labels;
 }
 
-/// Where values of a panel lie in the picture.
+/// Maps the values of a panel to px.
 struct Frame {
-    int left = 0;  ///< px, of the panel
-    int count = 1; ///< values of x
+    int left = 0;  ///< left edge of the panel, px
+    int count = 1; ///< number of values of x
     bool logarithmic = false;
     std::vector<double> labels;
 
@@ -140,7 +140,8 @@ std::string legend_of(const std::vector<PlotLine>& lines) {
     for (const PlotLine& line : lines) {
         out += line_from(x, y, x + 24, y, line.color, line.width);
         out += text_at(x + 32, y + 4, "start", line.name);
-        x += 32.0 + 7.0 * static_cast<double>(line.name.size()) + 24.0; // 7: more than a letter
+        x += 32.0 + 7.0 * static_cast<double>(line.name.size()) +
+             24.0; // a letter is at most 7 px wide
     }
     return out;
 }

@@ -100,7 +100,7 @@ ExportReport export_volume(const std::string& path,
                         {.path = path});
         }
         const FlakeField field = field_of(*grid);
-        grid.reset(); // the field has what it needs of it
+        grid.reset(); // the field holds its own copy of the data
         clock.check();
         write_grids(field, folder, options, report, clock);
     }

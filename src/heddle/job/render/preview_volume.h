@@ -9,14 +9,15 @@
 
 namespace heddle::job {
 
+/// What was drawn.
 struct PreviewReport {
-    std::int64_t voxels = 0; ///< of the level
+    std::int64_t voxels = 0; ///< of the level that is shown
     std::int32_t width = 0;  ///< px
     std::int32_t height = 0;
     StageTimes stages{};
 };
 
-/// A picture of one level of a .vdb; of voxels in memory: render_preview.
+/// Draws a quick picture of one level of a .vdb. For voxels in memory, call render_preview.
 /// @param level   0: the finest
 /// @throws Error  as read_vdb and render_preview; Cancelled
 [[nodiscard]] PreviewImage preview_volume(const std::string& path,
@@ -24,8 +25,8 @@ struct PreviewReport {
                                           const PreviewOptions& options,
                                           Progress& progress);
 
-/// The same into a .png.
-/// @throws OptionError  another suffix
+/// Draws one level of a .vdb and writes a .png.
+/// @throws OptionError  `output` has another suffix
 /// @throws Error        as preview_volume; CannotWrite
 PreviewReport preview_volume_to_file(const std::string& path,
                                      const std::string& output,

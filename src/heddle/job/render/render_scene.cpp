@@ -13,7 +13,7 @@
 namespace heddle::job {
 namespace {
 
-/// The scene with what was asked for in place of its own.
+/// Returns the scene with its settings replaced by those that the options give.
 Scene with_options(Scene scene, const RenderOptions& options) {
     if (options.size) {
         const double width = options.size->width, height = options.size->height;
@@ -21,7 +21,7 @@ Scene with_options(Scene scene, const RenderOptions& options) {
             throw OptionError(
                 str("`size` is ", width, " x ", height, "; it must be 1 x 1 or more"));
         }
-        if (width * height > 0x1p28) { // as a scene's
+        if (width * height > 0x1p28) { // the limit of a scene file
             throw OptionError("`size`: the picture has more than 2^28 pixels; make it smaller");
         }
         scene.width = options.size->width;

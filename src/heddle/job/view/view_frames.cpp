@@ -23,14 +23,14 @@ std::string frame_path(const std::string& folder, std::int64_t frame) {
     return (std::filesystem::path(folder) / name.str()).string();
 }
 
-/// The scene stands in the pictures' folder, and names the volume from there.
+/// Writes a scene file into the folder of the pictures, with a path to the volume from there.
 void write_scene(const viewer::Session& session, const std::string& volume) {
     const std::filesystem::path folder(session.subject().folder);
     const std::string named = std::filesystem::proximate(volume, folder).string();
     write_text((folder / (session.subject().name + "_view.toml")).string(), session.scene(named));
 }
 
-/// Takes a picture, and the session that has drawn it.
+/// Receives a picture and the session that drew it.
 using TakeFrame = std::function<void(
     std::int64_t frame, const viewer::RgbImage& image, const viewer::Session& session)>;
 
@@ -138,7 +138,7 @@ void make_folder(const std::string& folder) {
     std::error_code failed;
     std::filesystem::create_directories(folder, failed);
     if (!std::filesystem::is_directory(folder, failed)) {
-        throw Error(ErrorCode::CannotWrite, "cannot create this folder", "write to another place",
+        throw Error(ErrorCode::CannotWrite, "cannot create this folder", "write to another path",
                     {.path = folder});
     }
 }

@@ -11,7 +11,7 @@
 
 namespace heddle::job {
 
-/// What a view or a window shows, loaded.
+/// The loaded contents of a view.
 struct LoadedView {
     viewer::ViewedObject subject{};
     std::string volume{}; ///< path of the .vdb that is shown; empty: none
@@ -19,43 +19,44 @@ struct LoadedView {
     StageTimes stages{};
 };
 
-/// Pictures without a window: once around the object.
+/// How pictures are drawn without a window. The camera moves once around the object.
 struct FramesOptions {
     std::int64_t frames = 1;
-    /// path of the .vdb that a scene file beside the pictures shows as the first one does; none:
-    /// no such file
+    /// path of the .vdb for a scene file that repeats the first picture; none: no scene file is
+    /// written
     std::optional<std::string> scene{};
 };
 
+/// What was drawn.
 struct FramesReport {
-    std::string driver{};
+    std::string driver{}; ///< of OpenGL
     std::int64_t slices = 0;
-    std::string blend{};          ///< how slices were put over each other, in words
-    viewer::SliceTimes a_frame{}; ///< means, seconds
+    std::string blend{};          ///< how slices were blended, in words
+    viewer::SliceTimes a_frame{}; ///< mean seconds per frame
     StageTimes stages{};
 };
 
-/// Reads what is looked at. Yarns are made slices.
-/// @throws OptionError  as check_view; options that the curves have no use for
+/// Loads the input of a view. Procedural yarns are replaced by slices.
+/// @throws OptionError  as check_view; an option does not apply to the curves
 /// @throws Error        as load_geometry and read_levels; Cancelled
 [[nodiscard]] LoadedView
 load_view(const ViewInput& input, const ViewOptions& options, Progress& progress);
 
-/// Draws by OpenGL, in a context of its own.
-/// @throws Error  Device; as viewer::Session; Cancelled
+/// Draws pictures in an OpenGL context of its own.
+/// @throws Error  Device: there is no OpenGL; as viewer::Session; Cancelled
 [[nodiscard]] std::vector<viewer::RgbImage> draw_frames(const viewer::ViewedObject& subject,
                                                         const ViewOptions& options,
                                                         std::int64_t frames,
                                                         Progress& progress);
 
-/// The same into the subject's folder, which is made: frame_0000.png on, and NAME_view.toml.
+/// Draws frame_0000.png and so on, and NAME_view.toml, in the subject's folder, which is created.
 /// @throws Error  also CannotWrite
 FramesReport draw_frames_to_files(const viewer::ViewedObject& subject,
                                   const ViewOptions& options,
                                   const FramesOptions& frames,
                                   Progress& progress);
 
-/// Makes a folder, and those that it lies in.
+/// Creates a folder and its parents.
 /// @throws Error  CannotWrite
 void make_folder(const std::string& folder);
 

@@ -18,7 +18,7 @@ void check_color(const std::string& color, bool voxels) {
                           "; known: ", known));
 }
 
-/// Place of `name` in `names`, which has it.
+/// Returns the index of `name` in `names`, which must contain it.
 template <typename Color>
 Color color_of(const std::vector<std::string>& names, const std::string& name) {
     return static_cast<Color>(std::find(names.begin(), names.end(), name) - names.begin());
@@ -45,7 +45,7 @@ viewer::VoxelLook voxel_look(const ViewOptions& options) {
     return look;
 }
 
-/// The axis that was asked for, or as preview has it: z of what lies flat.
+/// Returns the axis of the options, or as in a preview: z if the object lies flat, else y.
 Vec3d up_of(const ViewOptions& options, const viewer::ViewedObject& subject) {
     int axis = options.up_axis.value_or(1);
     if (!options.up_axis) {
@@ -57,7 +57,7 @@ Vec3d up_of(const ViewOptions& options, const viewer::ViewedObject& subject) {
     return up;
 }
 
-/// About the unit ball.
+/// Returns an orbit about the unit ball.
 viewer::Orbit orbit_of(const ViewOptions& options, const viewer::ViewedObject& subject) {
     constexpr double kDegree = std::numbers::pi / 180.0;
     viewer::Orbit orbit{.from = options.from,

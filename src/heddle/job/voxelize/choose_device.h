@@ -8,16 +8,17 @@
 
 namespace heddle::job {
 
-/// Where voxels will be made.
+/// The processor that voxelizes.
 struct ChosenDevice {
     bool cuda = false;
     std::string name{};            ///< of the device
-    std::int64_t memory_bytes = 0; ///< of the device that may be used
+    std::int64_t memory_bytes = 0; ///< memory of the device that may be used
 };
 
-/// DeviceChoice::Auto takes the CPU where there is no device or it does not do what is asked, and
-/// so does Backend::Raster.
-/// @throws Error  Device: DeviceChoice::Cuda, and there is none; Unsupported: it does not do this
+/// Chooses the CPU or a CUDA device. It is the CPU for Backend::Raster, and for DeviceChoice::Auto
+/// if there is no device or the device does not support the options.
+/// @throws Error  for DeviceChoice::Cuda: Device: there is no device; Unsupported: the device does
+///                not support the options
 [[nodiscard]] ChosenDevice choose_device(const VoxelizeJobOptions& options,
                                          const VoxelizeOptions& asked);
 

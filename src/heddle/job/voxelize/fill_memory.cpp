@@ -20,7 +20,7 @@ resolution_for_memory(const VoxelizeOptions& options,
         } catch (const Error& e) {
             if (e.code() == ErrorCode::OutOfMemory || e.code() == ErrorCode::InvalidArgument ||
                 e.code() == ErrorCode::Unsupported) {
-                return false; // too many voxels for something
+                return false; // a limit on voxels is exceeded
             }
             throw;
         }

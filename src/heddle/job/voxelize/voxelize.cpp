@@ -13,7 +13,7 @@
 
 namespace heddle::job {
 
-/// One input on its way to voxels.
+/// The state of one input that is voxelized.
 struct Voxelizer::Run {
     explicit Run(Progress& progress) : clock(progress) {}
 
@@ -32,7 +32,7 @@ std::string folder_of(const std::string& output) {
     return folder.empty() ? "." : folder;
 }
 
-/// Level 0 and those that `builder` made over it.
+/// Returns level 0 and the levels that `builder` built above it.
 VoxelLevels finish_levels(LevelBuilder* builder, std::unique_ptr<VoxelLevel> level0) {
     if (builder != nullptr) return builder->finish(std::move(level0));
     VoxelLevels levels;
@@ -59,7 +59,7 @@ Voxelizer::~Voxelizer() = default;
 std::unique_ptr<LevelBuilder> Voxelizer::make_builder() const {
     const LodOptions lod = lod_options(options_.lod, options_.levels, options_.seed);
     if (lod.max_levels == 0 && !options_.correlation) return nullptr;
-    return std::make_unique<LevelBuilder>(lod); // it finds what level 0's neighbours share too
+    return std::make_unique<LevelBuilder>(lod); // it also computes the correlation of level 0
 }
 
 VoxelizePlan Voxelizer::plan_of(const Run& run,
@@ -69,11 +69,11 @@ VoxelizePlan Voxelizer::plan_of(const Run& run,
     VoxelizePlan plan = heddle::plan_voxelize(run.geometry, options, clock, builder);
     if (options_.backend != Backend::Raster) return plan;
     plan.peak_bytes += slice_voxelizer_.predict_bytes(run.geometry, options, plan);
-    plan.seconds = 0.0; // it was measured of fibers; of a driver nothing is known
+    plan.seconds = 0.0; // the prediction is for fibers, not for OpenGL
     return plan;
 }
 
-/// Reads and plans.
+/// Reads the input and plans its voxelization.
 std::unique_ptr<Voxelizer::Run> Voxelizer::prepare(GeometryInput input,
                                                    const std::string& folder,
                                                    bool writes,
@@ -133,7 +133,7 @@ std::unique_ptr<VoxelLevel> Voxelizer::make_voxels(Run& run) {
     return made;
 }
 
-/// Voxels and levels; the geometry goes, for its memory is better used by what follows.
+/// Computes voxels and levels, then frees the geometry, so that writing has more memory.
 VoxelLevels Voxelizer::make_levels(Run& run) {
     VoxelLevels levels = finish_levels(run.builder.get(), make_voxels(run));
     run.geometry = {};

@@ -15,48 +15,52 @@
 
 namespace heddle::job {
 
-/// What a CUDA device took.
+/// What was used of a CUDA device. In a plan, all numbers are 0.
 struct DeviceUse {
     std::string name{};
-    std::int64_t peak_bytes = 0; ///< of its memory; this and the rest: 0 in a plan
+    std::int64_t peak_bytes = 0; ///< of device memory
     std::int64_t batches = 0;
     double upload_seconds = 0.0;
 };
 
-/// What a voxelization did, or would do: then all below `file_bytes` is empty but the notes.
+/// What a voxelization did, or what a plan predicts. In a plan, the results are empty.
 struct VoxelizeReport {
     VoxelizePlan plan{};
-    std::int64_t predicted_file_bytes = 0; ///< of a .vdb of all levels
+    std::int64_t predicted_file_bytes = 0; ///< of a .vdb with all levels
     std::vector<std::string> notes{};      ///< what was assumed, one sentence each
-    std::optional<DeviceUse> device{};     ///< none: not on a device
+    std::optional<DeviceUse> device{};     ///< none: the CPU voxelizes
     std::optional<raster::RasterCounts> raster{};
     LevelCounts counts{};
-    std::optional<double> levels_thread_seconds{}; ///< of all threads; none: no levels were built
-    std::int64_t file_bytes = 0;                   ///< of the .vdb; 0: none was written
+    std::optional<double>
+        levels_thread_seconds{}; ///< summed over threads; none: no levels were built
+    std::int64_t file_bytes = 0; ///< of the .vdb; 0: none was written
     StageTimes stages{};
     double seconds = 0.0;
-    std::int64_t peak_bytes = 0; ///< resident, of the process so far
+    std::int64_t peak_bytes = 0; ///< peak resident memory of the process
 };
 
+/// Voxels in memory.
 struct VoxelizeResult {
     VoxelLevels levels{}; ///< finest first
     VoxelizeReport report{};
 };
 
-/// Voxelizes one input after another: what is set up for one, a driver's context and its programs,
-/// serves the next. To be used on one thread, while nothing else uses OpenGL on it.
+/// Voxelizes one input after another and reuses what was set up: the OpenGL context and programs.
+/// Must be used on one thread, while nothing else uses OpenGL on that thread.
 class Voxelizer {
 public:
-    /// Opens nothing yet.
-    /// @throws OptionError  options that do not go together
+    /// Checks the options. The OpenGL context is opened later, when it is needed.
+    /// @throws OptionError  the options cannot be used together
     explicit Voxelizer(VoxelizeJobOptions options);
     ~Voxelizer();
     Voxelizer(const Voxelizer&) = delete;
     Voxelizer& operator=(const Voxelizer&) = delete;
 
-    /// What voxelize_to_file() would do; writes nothing.
+    /// As job::plan_voxelize().
     [[nodiscard]] VoxelizeReport plan(GeometryInput input, Progress& progress);
+    /// As job::voxelize().
     [[nodiscard]] VoxelizeResult voxelize(GeometryInput input, Progress& progress);
+    /// As job::voxelize_to_file().
     VoxelizeReport
     voxelize_to_file(GeometryInput input, const std::string& output, Progress& progress);
 
@@ -74,20 +78,22 @@ private:
     raster::SliceVoxelizer slice_voxelizer_;
 };
 
-/// Lattice, predicted voxels, bytes and time; with `fill_memory` the resolution that was found.
-/// @throws OptionError  options that do not go together, or that the geometry has no use for
-/// @throws Error        as load_geometry, plan_voxelize and SliceVoxelizer; Device: `device` cuda,
-///                      and there is none; Unsupported: it does not do this; Cancelled
+/// Returns the lattice and predicts voxels, bytes and seconds; writes nothing. With `fill_memory`,
+/// finds the resolution.
+/// @throws OptionError  options cannot be used together or do not apply to the geometry
+/// @throws Error        as load_geometry, heddle::plan_voxelize, SliceVoxelizer and choose_device;
+///                      Cancelled
 [[nodiscard]] VoxelizeReport
 plan_voxelize(GeometryInput input, const VoxelizeJobOptions& options, Progress& progress);
 
-/// Curves or meshes to voxels with their levels of detail, in memory.
+/// Voxelizes curves or meshes and builds their levels of detail, in memory.
 /// @throws Error  as plan_voxelize
 [[nodiscard]] VoxelizeResult
 voxelize(GeometryInput input, const VoxelizeJobOptions& options, Progress& progress);
 
-/// Curves or meshes to a .vdb, which appears whole or not at all.
-/// @throws Error  as plan_voxelize; CannotWrite, said before the work starts where that is known
+/// Voxelizes curves or meshes and writes a .vdb, which appears complete or not at all.
+/// @throws OptionError  also: `output` does not end in .vdb
+/// @throws Error        as plan_voxelize; CannotWrite, if possible before the work starts
 VoxelizeReport voxelize_to_file(GeometryInput input,
                                 const std::string& output,
                                 const VoxelizeJobOptions& options,

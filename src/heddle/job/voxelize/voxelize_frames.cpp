@@ -9,7 +9,7 @@
 namespace heddle::job {
 namespace {
 
-/// The Error of a frame, its file first.
+/// Throws the Error of a frame again, with the frame's number and file in front.
 [[noreturn]] void fail_in(const AnimationFrame& frame, const Error& error) {
     std::string text = error.what();
     if (text.rfind(frame.input + ": ", 0) == 0) text.erase(0, frame.input.size() + 2);
@@ -28,7 +28,7 @@ std::vector<VoxelizeReport> run_frames(const std::vector<AnimationFrame>& frames
         try {
             reports.push_back(run(frame, {.path = frame.input, .options = geometry}));
         } catch (const OptionError&) {
-            throw; // the same for every frame
+            throw; // does not depend on the frame
         } catch (const Error& e) {
             fail_in(frame, e);
         }

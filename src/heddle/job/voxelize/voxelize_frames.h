@@ -8,16 +8,16 @@
 
 namespace heddle::job {
 
-/// One file of a sequence.
+/// One frame of an animation.
 struct AnimationFrame {
-    std::int64_t number = 0; ///< for messages
-    std::string input{}, output{};
+    std::int64_t number = 0;       ///< for messages
+    std::string input{}, output{}; ///< paths
 };
 
-/// voxelize_to_file() for each frame, in one run: what is set up for one serves the next. What was
-/// written before a frame fails stays. Each frame is a part (Progress::begin_part).
-/// @param geometry  of each frame
-/// @return          one a frame
+/// Calls voxelize_to_file() for each frame with one Voxelizer. If a frame fails, the files of the
+/// frames before it remain. Each frame is a part of the progress (Progress::begin_part).
+/// @param geometry  options for the geometry of all frames
+/// @return          one report per frame
 /// @throws OptionError  as voxelize_to_file
 /// @throws Error        as voxelize_to_file, with the frame's number and file in the text
 std::vector<VoxelizeReport> voxelize_frames(const std::vector<AnimationFrame>& frames,
@@ -25,7 +25,7 @@ std::vector<VoxelizeReport> voxelize_frames(const std::vector<AnimationFrame>& f
                                             const VoxelizeJobOptions& options,
                                             Progress& progress);
 
-/// plan_voxelize() for each frame.
+/// Calls plan_voxelize() for each frame.
 /// @throws Error  as voxelize_frames
 [[nodiscard]] std::vector<VoxelizeReport> plan_frames(const std::vector<AnimationFrame>& frames,
                                                       const GeometryOptions& geometry,

@@ -49,7 +49,7 @@ void check_voxelize_options(const VoxelizeJobOptions& o) {
 
 VoxelizeOptions voxelizer_options(const VoxelizeJobOptions& o, bool curves_alone) {
     check_voxelize_options(o);
-    // transport through fibers needs footprints: docs/transport.md
+    // light transport through fibers needs footprints (docs/transport.md)
     const std::int32_t footprints = curves_alone && o.lod != LodMethod::Naive ? 4 : 0;
     VoxelizeOptions options;
     options.voxel_size = o.voxel_size.value_or(Vec3d{});

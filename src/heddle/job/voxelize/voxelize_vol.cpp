@@ -36,14 +36,14 @@ VolLayout find_layout(const std::string& path, const VolJobOptions& options, Sta
     return layout;
 }
 
-/// The blocks in memory where that holds them: levels and each grid of the file walk all of them,
-/// and the source decodes them anew every time.
+/// Decodes all blocks into memory if they fit: building levels and writing each grid visit all of
+/// them, and the source decodes them anew on every visit.
 std::unique_ptr<VoxelLevel> hold(std::unique_ptr<VoxelLevel> source,
                                  const std::optional<std::int64_t>& memory_bytes,
                                  Progress& progress) {
     const VoxelLevelInfo& info = source->info();
     const std::int64_t limit = memory_bytes.value_or(available_bytes() / 2);
-    const std::int64_t leaves = info.voxel_count / 8; // at most, in what is worth holding
+    const std::int64_t leaves = info.voxel_count / 8; // an upper bound if sparsely filled
     if (2 * predict_block_bytes(leaves, info.voxel_count, info.lobe_count, info.fields) > limit) {
         return source;
     }

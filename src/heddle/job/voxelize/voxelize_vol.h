@@ -12,21 +12,21 @@
 
 namespace heddle::job {
 
-/// How a Mitsuba volume becomes voxels: its samples are the voxels. Nothing is required.
+/// How a Mitsuba volume is converted to voxels, one per sample. Nothing is required.
 struct VolJobOptions {
-    std::string orientation{}; ///< file of its directions, or "none"; empty: found by name
-    std::optional<double> density_scale{}; ///< extinction per scene unit at density 1; none: such
-                                           ///< that density 1 covers 86 % of a voxel's face
-    Vec3f albedo{0.8f, 0.8f, 0.8f};        ///< linear RGB in [0, 1], of its fibers
-    std::int32_t lobes = 3;                ///< most in a voxel, 1 to 8
+    std::string orientation{};             ///< orientation file, or "none"; empty: found by name
+    std::optional<double> density_scale{}; ///< extinction per scene unit at density 1; none:
+                                           ///< density 1 covers 86 % of a voxel's face
+    Vec3f albedo{0.8f, 0.8f, 0.8f};        ///< of the fibers, linear RGB in [0, 1]
+    std::int32_t lobes = 3;                ///< most per voxel, 1 to 8
     LodMethod lod = LodMethod::Moments;
-    std::optional<int> levels{}; ///< above the finest, at most; none: all
+    std::optional<int> levels{}; ///< most levels above the finest; none: all
     std::uint64_t seed = 0;
-    std::optional<std::int64_t> memory_bytes{}; ///< none: half of what is free
-    std::string command{};                      ///< is kept in the result
+    std::optional<std::int64_t> memory_bytes{}; ///< limit; none: half of the free memory
+    std::string command{};                      ///< is stored in the result
 };
 
-/// What was made of a .vol, or is there to be made: then `layout` alone is filled in.
+/// What was converted. In a plan, only `layout` is filled in.
 struct VolReport {
     VolLayout layout{};
     std::vector<std::string> notes{};
@@ -37,27 +37,28 @@ struct VolReport {
     std::int64_t peak_bytes = 0; ///< resident, of the process so far
 };
 
+/// A Mitsuba volume in memory.
 struct VolResult {
-    VoxelLevels levels{}; ///< finest first; the files must stay while it lives
+    VoxelLevels levels{}; ///< finest first; may read the input files later
     VolReport report{};
 };
 
-/// A path that ends in .vol.
+/// Returns true if the path ends in .vol.
 [[nodiscard]] bool is_vol_file(const std::string& path);
 
-/// Which files make the volume, and where its samples lie.
-/// @param path    of density, or a dictionary of blocks
+/// Finds the files of a volume and the layout of its samples.
+/// @param path    of the density, or of a dictionary of blocks
 /// @throws Error  as find_vol_layout
 [[nodiscard]] VolReport
 plan_vol(const std::string& path, const VolJobOptions& options, Progress& progress);
 
-/// A Mitsuba volume as voxels with levels of detail, in memory.
-/// @throws OptionError  a number out of range
+/// Converts a Mitsuba volume to voxels and builds their levels of detail, in memory.
+/// @throws OptionError  a number is out of range
 /// @throws Error        as find_vol_layout and read_vol; Cancelled
 [[nodiscard]] VolResult
 voxelize_vol(const std::string& path, const VolJobOptions& options, Progress& progress);
 
-/// The same into a .vdb.
+/// Converts a Mitsuba volume and writes a .vdb.
 /// @throws Error  as voxelize_vol; CannotWrite
 VolReport voxelize_vol_to_file(const std::string& path,
                                const std::string& output,

@@ -28,7 +28,7 @@ bool EmbreeDevice::count(void* device, ssize_t bytes, bool post) {
     auto* self = static_cast<EmbreeDevice*>(device);
     const bool fits = self->add(bytes);
     if (fits || bytes <= 0 || post) return true;
-    self->add(-bytes); // refused before it was taken
+    self->add(-bytes); // Embree does not allocate what is refused
     return false;
 }
 

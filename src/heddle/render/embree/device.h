@@ -10,25 +10,25 @@
 
 namespace heddle {
 
-/// An Embree device that counts its memory and keeps to a limit.
+/// An Embree device that counts its memory and enforces a limit.
 class EmbreeDevice {
 public:
-    /// @param memory_bytes  more than this, own() included, is an error
-    /// @throws Error  Device: Embree does not start on this machine
+    /// @param memory_bytes  limit of the memory, including own()
+    /// @throws Error        Device: Embree does not start on this machine
     explicit EmbreeDevice(std::int64_t memory_bytes);
     ~EmbreeDevice() { rtcReleaseDevice(device_); }
     EmbreeDevice(const EmbreeDevice&) = delete;
     EmbreeDevice& operator=(const EmbreeDevice&) = delete;
 
     [[nodiscard]] RTCDevice get() const { return device_; }
-    /// Bytes held now: Embree's, and what was owned.
+    /// Returns the bytes in use: Embree's, and those counted by own().
     [[nodiscard]] std::int64_t byte_count() const { return bytes_; }
     [[nodiscard]] std::int64_t peak_bytes() const { return peak_; }
 
-    /// Counts buffers of ours that Embree reads.
-    /// @throws Error  OutOfMemory: more than the limit
+    /// Counts the bytes of a caller's buffers that Embree reads.
+    /// @throws Error  OutOfMemory: the limit is exceeded
     void own(std::int64_t bytes);
-    /// Throws what went wrong since the last call.
+    /// Throws the error that occurred since the last call, if any.
     /// @throws Error  OutOfMemory, Cancelled, Internal
     void check(const Progress& progress) const;
 
@@ -42,10 +42,10 @@ private:
     std::int64_t limit_;
     std::atomic<std::int64_t> bytes_ = 0;
     std::atomic<std::int64_t> peak_ = 0;
-    std::string message_; ///< of the last error; Embree calls back from the thread that failed
+    std::string message_; ///< of the last error, set by the thread that failed
 };
 
-/// A scene that is released with its owner.
+/// An Embree scene, which the destructor releases.
 class EmbreeScene {
 public:
     explicit EmbreeScene(const EmbreeDevice& device) : scene_(rtcNewScene(device.get())) {}
@@ -54,7 +54,7 @@ public:
     EmbreeScene& operator=(const EmbreeScene&) = delete;
 
     [[nodiscard]] RTCScene get() const { return scene_; }
-    /// Builds the tree over all that was attached.
+    /// Builds the acceleration structure over all attached geometry.
     /// @throws Error  as EmbreeDevice::check
     void commit(const EmbreeDevice& device, Progress& progress);
 

@@ -84,7 +84,7 @@ TEST(EmbreeMesh, MetalAndRoughnessMultiplyTheMaterials) {
 
 TEST(EmbreeMesh, ANormalMapTiltsTheAxisButNotTheGeometry) {
     Geometry geometry = square();
-    // (.6, 0, .8) as bytes
+    // (0.6, 0, 0.8) as bytes
     geometry.textures.push_back(texels({204, 128, 230, 255, 204, 128, 230, 255, //
                                         204, 128, 230, 255, 204, 128, 230, 255}));
     geometry.materials[0].normal_map = 0;

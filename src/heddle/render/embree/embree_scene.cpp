@@ -9,12 +9,12 @@
 namespace heddle {
 namespace {
 
-/// How far a hit may lie off its surface, as a share of its position and of its distance: some
-/// roundings to single precision (6e-8), and of Embree's search along a curve.
+/// Largest error of a hit, relative to its coordinates and its distance: some rounding errors in
+/// single precision (6e-8), and the error of Embree's search along a curve.
 constexpr float kOffPosition = 2e-6f;
 constexpr float kOffDistance = 2e-7f;
 
-/// One placed object.
+/// One instance of an object.
 struct Placed {
     const ObjectScene* object = nullptr;
     const TracedObject* traced = nullptr;
@@ -24,7 +24,7 @@ struct Placed {
     [[nodiscard]] Vec3f direction(Vec3f d) const {
         return to_float(to_world.direction(to_double(d)));
     }
-    /// By the inverse's transpose; any length.
+    /// Transforms a normal by the transpose of the inverse; the result has any length.
     [[nodiscard]] Vec3f normal(Vec3f n) const {
         const Vec3d d = to_double(n);
         return to_float({dot(to_object.x, d), dot(to_object.y, d), dot(to_object.z, d)});
@@ -73,7 +73,7 @@ RTCRay local_ray(const Ray& ray, Vec3d origin, float t_max) {
     return r;
 }
 
-/// A fiber that is round in itself, or flakes that a surface stands for: diffuse alone.
+/// Makes a diffuse Surface of a fiber that is traced as a round curve, or of microflakes.
 void make_diffuse(ScatterMaterial& m) {
     m.model = ScatterModel::Surface;
     m.metalness = 0.0f;
@@ -86,7 +86,7 @@ Vec3f across(Vec3f v, Vec3f unit) {
     return normalize(v - unit * dot(v, unit), any_perpendicular(unit));
 }
 
-/// A shading normal on the side of the geometric one from which the ray still sees it.
+/// Returns the shading normal on the ray's side, bent so that it faces the ray.
 Vec3f towards_viewer(Vec3f shading, Vec3f geometric, Vec3f viewer) {
     if (dot(shading, geometric) < 0.0f) shading = shading * -1.0f;
     const float seen = dot(shading, viewer);
@@ -150,7 +150,7 @@ Bounds TracedScene::bounds() const {
     return out;
 }
 
-// What several objects share is built once.
+// Geometry that several objects share is built once.
 const ObjectScene& TracedScene::object_of(const std::shared_ptr<const Geometry>& geometry,
                                           const EmbreeOptions& options,
                                           Progress& progress) {
@@ -175,8 +175,8 @@ void TracedScene::attach(const Placed& placed) {
     rtcReleaseGeometry(instance);
 }
 
-// Where the ray enters the scene's box: single precision begins there, so that fibers seen from far
-// away stay round.
+// Finds where the ray enters the scene's box. Embree's ray starts there, so that single precision
+// is enough for fibers that are seen from far away.
 bool TracedScene::enter(const Ray& ray, double& t) const {
     const double lo[3] = {bounds_.lower_x, bounds_.lower_y, bounds_.lower_z};
     const double hi[3] = {bounds_.upper_x, bounds_.upper_y, bounds_.upper_z};
@@ -184,14 +184,14 @@ bool TracedScene::enter(const Ray& ray, double& t) const {
     auto end = static_cast<double>(ray.t_max);
     for (int a = 0; a < 3; ++a) {
         const double inv =
-            1.0 / static_cast<double>(ray.direction[a]); // of 0: infinite, as it must
+            1.0 / static_cast<double>(ray.direction[a]); // 1 / 0 is infinite, as required
         const double t0 = (lo[a] - ray.origin[a]) * inv;
         const double t1 = (hi[a] - ray.origin[a]) * inv;
-        begin = std::max(begin, std::min(t0, t1)); // NaN on a face: the other argument stays
+        begin = std::max(begin, std::min(t0, t1)); // if NaN (on a face), the other argument is kept
         end = std::min(end, std::max(t0, t1));
     }
     if (!(begin <= end)) return false;
-    t = begin > 0.0 ? begin * (1.0 - 1e-6) : 0.0; // a box's face may be what is met
+    t = begin > 0.0 ? begin * (1.0 - 1e-6) : 0.0; // the hit may lie on the face of the box
     return true;
 }
 

@@ -231,7 +231,7 @@ TEST(EmbreeScene, ObjectsMayShareAGeometryAndDifferInMaterial) {
 TEST(EmbreeScene, NormalsOfAStretchedInstanceStayAtRightAnglesToIt) {
     const auto scene =
         trace(straight_fiber(Basis::CatmullRom, {0, 0, -3}, {0, 0, 3}, 0.5f), {}, {kTurned});
-    // the circle of radius .5 becomes an ellipse of half axes .5 along x and 1 along y
+    // the circle of radius 0.5 becomes an ellipse of half axes 0.5 along x and 1 along y
     TracedHit hit;
     const Vec3d on = kTurned.offset + Vec3d{0.3, 0.8, 0.0};
     ASSERT_TRUE(scene->intersect(ray_to(on + Vec3d{3, 0, 0}, on), hit));

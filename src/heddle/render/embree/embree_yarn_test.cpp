@@ -33,7 +33,7 @@ YarnType plied_yarn(int fibers_per_ply) {
     return yarn;
 }
 
-/// A bent yarn of radius .5 about the x axis, from x = 0 to 8.
+/// A bent yarn of radius 0.5 about the x axis, from x = 0 to 8.
 Geometry bent_yarn(const YarnType& yarn, bool closed = false) {
     CurveSet set;
     set.basis = Basis::CatmullRom;

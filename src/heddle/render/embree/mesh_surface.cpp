@@ -26,7 +26,7 @@ Corners<T> corners_of(const T* values, const MeshView& mesh, std::uint32_t trian
     return {values[c[0]], values[c[1]], values[c[2]]};
 }
 
-/// A value of corners at a point.
+/// Interpolates the values of a triangle's corners at a point.
 template <typename T>
 T value_at(const Corners<T>& corners, TrianglePoint at) {
     return interpolate(corners, 1.0f - at.u - at.v, at.u, at.v);

@@ -9,9 +9,9 @@
 namespace heddle {
 namespace {
 
-/// What a fiber's cubic takes: control points and index 52, tree 47 to 54 (measured on
-/// flame_ribbing_pattern.bcc with 30 to 150 fibers), and a tenth for flyaway hairs. The builder's
-/// own lists are gone before the tree is full: the peak is what is held.
+/// Bytes per cubic of a fiber: control points and index 52, tree 47 to 54 (measured on
+/// flame_ribbing_pattern.bcc with 30 to 150 fibers), and a tenth for flyaway hairs. Embree frees
+/// its builder's lists before the tree is complete, so the final size is also the peak.
 constexpr std::int64_t kBytesPerSegment = 118;
 
 RTCGeometryType type_of(RoundBasis basis) {
@@ -122,7 +122,7 @@ void ObjectScene::attach_mesh(std::uint32_t m) {
     if (mesh.triangles.empty()) return;
     parts_.push_back({.object = this, .mesh = m, .curve = false, .curves = {}});
     const RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    // Embree's own copies: it reads 16 bytes at the last vertex, which ends where its 12 do
+    // Embree copies these: it reads 16 bytes per vertex, but our last vertex ends after 12
     void* const positions =
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                 sizeof(Vec3f), mesh.positions.size());
@@ -140,7 +140,7 @@ void ObjectScene::attach_mesh(std::uint32_t m) {
     rtcReleaseGeometry(geometry);
 }
 
-// Round curves are solid: a ray that starts inside one leaves it unhindered.
+// Ignores back faces of round curves, so that a ray that starts inside a curve leaves it.
 void ObjectScene::filter_back(const RTCFilterFunctionNArguments* a) {
     for (unsigned i = 0; i < a->N; ++i) {
         const Vec3f direction{RTCRayN_dir_x(a->ray, a->N, i), RTCRayN_dir_y(a->ray, a->N, i),

@@ -13,21 +13,21 @@
 
 namespace heddle {
 
-/// A point of an object that a ray has met. Object space.
+/// A hit on an object, in object space.
 struct ObjectPoint {
     std::uint32_t geometry = 0;  ///< Embree's geometry id
     std::uint32_t primitive = 0; ///< Embree's
     float u = 0.0f, v = 0.0f;
 };
 
-/// What an object is at a point, object space.
+/// The properties of an object at a point, in object space.
 struct ObjectSample {
     bool curve = false;
-    std::uint32_t material = 0; ///< of the geometry
-    MeshSample surface;         ///< of a curve: its albedo, and its direction as `tangent`
+    std::uint32_t material = 0; ///< index among the geometry's
+    MeshSample surface;         ///< for a curve: only the albedo, and its direction as `tangent`
 };
 
-/// One geometry in an Embree scene of its own, which instances name. Must not move.
+/// One geometry in its own Embree scene, to which instances refer. Must not be moved in memory.
 class ObjectScene {
 public:
     /// @throws Error  as build_embree_scene

@@ -10,7 +10,7 @@
 namespace heddle {
 namespace {
 
-/// Weights of four control points in dP/du.
+/// Returns the weights of four control points in dP/du.
 std::array<float, 4> derivative_weights(RoundBasis basis, float u) {
     const float v = 1.0f - u;
     if (basis == RoundBasis::Bezier) {
@@ -24,7 +24,7 @@ std::array<float, 4> derivative_weights(RoundBasis basis, float u) {
             0.5f * (-3.0f * u * u + 2.0f * u + 1.0f), 0.5f * u * u};
 }
 
-/// Radius of a curve's control points.
+/// Returns the radii of a curve's control points.
 class PointRadius {
 public:
     PointRadius(const Geometry& geometry, const CurveSet& set) : set_(set) {
@@ -51,7 +51,7 @@ bool has_length(const RoundPoint* p, std::size_t count) {
     return apart;
 }
 
-/// Whether the neighbours of a linear segment cut its round ends: those that have a length.
+/// Returns which ends of a linear segment join a neighbour that has a length, for Embree.
 std::uint8_t neighbor_flags(const RoundPoint* segment, bool left, bool right) {
     left = left && has_length(segment - 1, 2);
     right = right && has_length(segment + 1, 2);
@@ -66,7 +66,7 @@ void add_curve(RoundCurves& out, const CurveSet& set, std::size_t c, const Point
     if (spans == 0) return;
     const bool linear = set.basis == Basis::Linear;
     const bool closed = set.is_closed(c);
-    // a closed curve's span k runs from point k: one point goes before it, and two follow its end
+    // span k of a closed curve starts at point k: one point precedes the first, two follow the last
     const std::size_t count = closed ? n + 3 : n;
     const std::size_t base = out.points.size();
     for (std::size_t i = 0; i < count; ++i) {
@@ -103,7 +103,7 @@ Vec3f RoundCurves::derivative(std::uint32_t segment, float u) const {
     const RoundPoint* p = &points[segments[segment]];
     if (basis == RoundBasis::Linear) return p[1].position() - p[0].position();
     const std::array<float, 4> w = derivative_weights(basis, u);
-    // differences: the sum of the weights is 0, and positions may be far from the origin
+    // of differences (the weights' sum is 0), as positions may be far from the origin
     const Vec3f origin = p[0].position();
     Vec3f sum;
     for (std::size_t i = 1; i < 4; ++i) sum = sum + (p[i].position() - origin) * w[i];
@@ -136,7 +136,7 @@ RoundPoint round_point(Vec3d p, double radius) {
 
 void to_bezier(RoundPoint* p) {
     const Vec3d p0 = to_double(p[0].position());
-    const Vec3d p1 = to_double(p[1].position()) - p0; // differences keep their digits
+    const Vec3d p1 = to_double(p[1].position()) - p0; // differences keep precision
     const Vec3d p2 = to_double(p[2].position()) - p0;
     const Vec3d p3 = to_double(p[3].position()) - p0;
     const float r1 = p[1].radius, r2 = p[2].radius, ends = p[0].radius + p[3].radius;

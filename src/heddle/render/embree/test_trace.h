@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-// Small geometry in, hits out.
+// Traces small geometry in tests.
 
 namespace heddle::test {
 
-/// The geometry at the origin, all of whose materials scatter as `material`.
+/// Builds a scene of the geometry, all of whose materials scatter as `material`.
 inline std::unique_ptr<SurfaceScene> trace(Geometry geometry,
                                            const ScatterMaterial& material = {},
                                            std::vector<Affine> instances = {Affine{}},
@@ -31,7 +31,7 @@ inline Ray ray_to(Vec3d from, Vec3d to) {
     return ray;
 }
 
-/// A direction, uniform on the sphere.
+/// Draws a direction uniformly on the sphere.
 inline Vec3d draw_direction(StreamRandom& random) {
     for (;;) {
         const Vec3d d{2.0 * static_cast<double>(random.uniform()) - 1.0,
@@ -42,7 +42,7 @@ inline Vec3d draw_direction(StreamRandom& random) {
     }
 }
 
-/// One straight fiber from `from` to `to`, radius r.
+/// Returns one straight fiber from `from` to `to` of radius r.
 inline Geometry straight_fiber(Basis basis, Vec3f from, Vec3f to, float r) {
     CurveSet set;
     set.basis = basis;

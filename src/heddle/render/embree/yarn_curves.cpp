@@ -15,7 +15,7 @@ const CurveSet& set_of(const FiberSource& source, YarnSet yarns) {
     return source.geometry().curves[yarns.set];
 }
 
-/// Where the fibers of one curve stand among the segments and control points of its set.
+/// The ranges of one curve's fibers among the segments and control points of its set.
 struct CurvePlace {
     std::uint64_t first_span = 0;
     std::uint64_t segments = 0; ///< of one fiber
@@ -41,7 +41,7 @@ std::vector<CurvePlace> place_curves(const FiberSource& source, YarnSet yarns, i
     return places;
 }
 
-/// The fibers of one curve, one after the other.
+/// Adds the fibers of one curve, one after the other.
 void fill_curve(const YarnPath& path, int cubics, const CurvePlace& at, RoundCurves& out) {
     RoundPoint* const points = out.points.data() + at.first_point;
     const std::size_t n = at.segments;
@@ -62,28 +62,28 @@ void fill_curve(const YarnPath& path, int cubics, const CurvePlace& at, RoundCur
     }
 }
 
-/// Distance of a point from a line: what lies along the fiber is no error of its place.
+/// Returns the distance of a point from a line: an offset along the fiber is no error.
 double distance_across(Vec3d p, Vec3d on, Vec3d along) {
     const Vec3d d = p - on;
     return length(d - dot(d, along) * along);
 }
 
-/// The place of all fibers.
+/// Returns the positions of all fibers.
 std::vector<Vec3d> fibers_at(const YarnPath& path, double t) {
     std::vector<Vec3d> out(path.table().size());
     path.for_each_fiber(t, [&](std::size_t f, Vec3d p, double) { out[f] = p; });
     return out;
 }
 
-/// Largest distance of each fiber from its cubic over knots [t, t + dt], at three places between
-/// those that the cubic passes, in fiber radii.
+/// Adds the largest distance of each fiber from its cubic over knots [t, t + dt], in fiber radii,
+/// measured at three points between those that the cubic interpolates.
 void measure_errors(const YarnPath& path, double t, double dt, std::vector<double>& out) {
     std::vector<Vec3d> node[4];
     for (int i = 0; i < 4; ++i) node[i] = fibers_at(path, t + dt * i / 3.0);
     std::vector<double> worst(path.table().size(), 0.0);
     const double radius = static_cast<double>(path.table().fiber_radius) * path.at(t).scale;
     for (const double x : {0.12, 0.5, 0.88}) {
-        // Lagrange's weights, and a direction good enough to tell across from along
+        // Lagrange's weights, and an approximate direction of the fiber
         const double a = 3.0 * x, b = a - 1.0, c = a - 2.0, d = a - 3.0;
         const double w[4] = {-b * c * d / 6.0, a * c * d / 2.0, -a * b * d / 2.0, a * b * c / 6.0};
         const std::vector<Vec3d> truth = fibers_at(path, t + dt * x);

@@ -11,7 +11,7 @@
 namespace heddle {
 namespace {
 
-/// Cubics of a hair: about one a span of the yarn that it lies over, and one a radian of its turn.
+/// Returns the cubics of a hair: about one per span of its yarn, and one per radian of its turn.
 int cubic_count(const YarnPath& path, const FlyawayHair& hair) {
     const double dt = hair.t1 - hair.t0;
     const double spans =
@@ -31,7 +31,7 @@ RoundPoint hair_at(const YarnPath& path, std::size_t ply, const FlyawayHair& hai
                        static_cast<double>(path.table().fiber_radius) * place.scale);
 }
 
-/// Hairs as Bezier cubics.
+/// Collects hairs as Bezier cubics.
 struct HairCurves {
     std::vector<RoundPoint> points;
     std::vector<std::uint32_t> segments;

@@ -12,20 +12,19 @@
 
 namespace heddle {
 
-/// One place of a yarn: what its fibers there are made of. All in scene units: `scale` too is scene
-/// units a model unit.
+/// The yarn frame at one point, in scene units; `scale` is in scene units per model unit.
 using TracedYarnFrame = YarnSection<double>;
 
-/// Where a ply's section stands at one place.
+/// The position and axes of a ply's section at one point.
 struct TracedPlyFrame {
-    Vec3d center, u, v; ///< a fiber lies at center + x u + y v, x and y in model units
+    Vec3d center, u, v; ///< a fiber is at center + x u + y v, x and y in model units
 };
 
-/// The fibers of one yarn, in double precision: the same paths as the voxelizer's.
+/// The fibers of one yarn, in double precision, with the same paths as in the voxelizer.
 ///                                                                     [Zhao 2016, sec. 4]
 class YarnPath {
 public:
-    /// @param first_span  of the curve, among all of the source's spans
+    /// @param first_span  first span of the curve among all spans of the source
     YarnPath(const FiberSource& source, std::uint64_t first_span);
 
     [[nodiscard]] std::size_t span_count() const { return spans_.size(); }
@@ -37,14 +36,14 @@ public:
     [[nodiscard]] std::uint64_t curve() const { return curve_; }
     [[nodiscard]] std::size_t ply_count() const { return table_.first_of_ply.size() - 1; }
 
-    /// @param t  in knots since the curve's start; in [0, span_count()]; closed ones go round
+    /// @param t  knots from the start of the curve, in [0, span_count()]; periodic if closed
     [[nodiscard]] TracedYarnFrame at(double t) const;
     /// @param s  yarn length, model units, in [0, total]
-    /// @return   knots since the start, within the span by its share of the length
+    /// @return   knots from the start, linear in the length within a span
     [[nodiscard]] double knot_of_length(double s) const;
     [[nodiscard]] TracedPlyFrame ply(const TracedYarnFrame& at, std::size_t ply) const;
 
-    /// Calls visit(fiber, position, radius) for all fibers at one place, in the table's order.
+    /// Calls visit(fiber, position, radius) for all fibers at one point, in the table's order.
     /// @param t  as in `at`
     template <typename Visit>
     void for_each_fiber(double t, const Visit& visit) const;

@@ -13,7 +13,7 @@ struct RayRange {
 };
 
 /// The part of [t_min, t_max] of a ray that is inside a box.
-/// @param direction  any length; t counts in it
+/// @param direction  of any length, which is the unit of t
 [[nodiscard]] inline RayRange
 clip(Vec3d origin, Vec3d direction, float t_min, float t_max, const Bounds& box) {
     double t0 = static_cast<double>(t_min);

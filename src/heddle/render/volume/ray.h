@@ -6,15 +6,15 @@
 
 namespace heddle {
 
-/// A ray with the width of what it stands for.
+/// A ray with the width of its footprint.
 struct Ray {
     Vec3d origin;                                         ///< scene units
     Vec3f direction;                                      ///< unit
     float t_max = std::numeric_limits<float>::infinity(); ///< scene units
     float width = 0.0f;                                   ///< of the footprint at the origin
     float spread = 0.0f;                                  ///< growth of the width per unit of t
-    float clear = 0.0f; ///< no volume stops it before this t: it starts on what is there
-    float bulk = 0.0f;  ///< 1: it runs into the bulk of what it starts on; 0: in the open
+    float clear = 0.0f; ///< volumes are ignored for t < clear (self-shadowing)
+    float bulk = 0.0f;  ///< 1: leaves its fiber into the yarn; 0: away from it, or no fiber
 
     [[nodiscard]] Vec3d at(double t) const { return origin + to_double(direction) * t; }
     [[nodiscard]] float width_at(float t) const { return width + spread * t; }

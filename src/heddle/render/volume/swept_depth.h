@@ -9,24 +9,24 @@
 #include <cmath>
 #include <cstdint>
 
-// The optical depth of a ray's own way through a voxel, by the voxel's footprints of 4 x 4 cells.
+// The optical depth of a ray's path through a voxel, by the voxel's footprints of 4 x 4 cells.
 
 namespace heddle {
 
 namespace detail {
 
-/// The cells that a way sweeps are read at this many points, evenly spaced along it.
+/// The cells that a path crosses are read at this many points, evenly spaced along it.
 inline constexpr int kWayPoints = 4;
-/// The largest coverage that a swept cell counts for: a cell stands for its columns, of which a few
-/// may be open although the cell is set, so it is never opaque.
+/// The largest coverage of a swept cell: a few columns of a cell may be open although it is set, so
+/// it is never opaque.
 inline constexpr float kMostCovered = 1.0f - 1.0f / 128.0f;
-/// The same in the bulk of a yarn, where the fibers behind a column close what it leaves open.
+/// The same in the bulk of a yarn, where other fibers close the gaps behind a column.
 inline constexpr float kMostCoveredInBulk = 1.0f - 1e-4f;
-/// How many times as large depths are in the bulk of a yarn: fibers stand closer there than their
-/// coverage tells, because they hide each other.
+/// Factor of optical depths in the bulk of a yarn: fibers are denser there than their coverage
+/// indicates, because they occlude each other.
 inline constexpr float kBulkDepth = 1.5f;
 
-/// For each axis: at how many of the way's points the cell of that axis's footprint is set.
+/// Returns, per axis, at how many points of the path the cell of that axis's footprint is set.
 [[nodiscard]] inline std::array<int, 3>
 count_set_cells(std::uint64_t footprints, Vec3f in, Vec3f way) {
     std::array<int, 3> set{};
@@ -42,11 +42,11 @@ count_set_cells(std::uint64_t footprints, Vec3f in, Vec3f way) {
     return set;
 }
 
-/// Coverage of the cells that a way sweeps. Where rounding set more cells than were covered they
-/// are thinned; where it set none the voxel is even.
-/// @param depth  of the voxel along the axis, TraversalVoxel::depth
-/// @param bits   of the axis's footprint
-/// @param set    of kWayPoints points
+/// Returns the mean coverage of the cells that a path crosses. If rounding set more cells than are
+/// covered, their coverage is reduced; if it set none, the voxel is taken as uniform.
+/// @param depth  TraversalVoxel::depth along the axis
+/// @param bits   footprint along the axis
+/// @param set    number of the kWayPoints points whose cell is set
 [[nodiscard]] inline float swept_coverage(std::uint16_t depth, std::uint16_t bits, int set) {
     const float covered = 1.0f - std::exp(-kDepthUnit * static_cast<float>(depth));
     if (bits == 0) return covered;
@@ -54,7 +54,8 @@ count_set_cells(std::uint64_t footprints, Vec3f in, Vec3f way) {
     return static_cast<float>(set) * (1.0f / kWayPoints) * std::min(1.0f, covered / share);
 }
 
-/// Depth of a way through the part `part` of columns whose coverage is `swept`.
+/// Returns the optical depth of a path that spans the fraction `part` of columns of coverage
+/// `swept`.
 [[nodiscard]] inline float depth_of_part(float swept, float part, float many, float bulk) {
     float depth = -(1.0f - many) * std::log(1.0f - std::min(swept * part, kMostCovered));
     if (many > 0.0f) depth -= many * part * std::log(1.0f - std::min(swept, kMostCovered));
@@ -68,18 +69,19 @@ count_set_cells(std::uint64_t footprints, Vec3f in, Vec3f way) {
 
 } // namespace detail
 
-/// Depths along the axes of a ray that takes one way through the voxel: of the cells of each face
-/// that its projection sweeps.
+/// Returns the optical depths along the axes for one path through a voxel, from the cells of each
+/// face that the projection of the path crosses.
 ///
-/// A ray along an axis meets one cell, set or not; an oblique one the swept share of set cells is
-/// its coverage c. A covered column is blocked at one place in it: of a way through the part d of
-/// the voxel along the axis c d is blocked. Depths that add up, 1 - (1 - c)^d, hold for fine dust;
-/// `many` is their share. In the bulk of a yarn, fibers behind fibers, they add up and are larger.
-/// @param voxel       its own depths
+/// A ray along an axis crosses one cell, set or not; for an oblique ray the coverage c is the
+/// fraction of set cells among those that it crosses. A covered column is blocked at one point, so
+/// a path that spans the fraction d of the voxel along the axis is blocked with probability c d.
+/// Fine dust would block 1 - (1 - c)^d instead; `many` is the weight of that law. In the bulk of a
+/// yarn, many fibers lie behind each other: optical depths add up and are larger.
+/// @param voxel       optical depths along the axes
 /// @param footprints  TraversalLevel::footprints
 /// @param many        fiber_crowding(level)
 /// @param bulk        Ray::bulk
-/// @param in, out     where the ray enters and leaves, in [0, 1]^3 of the voxel
+/// @param in, out     points of entry and exit, in [0, 1]^3 of the voxel
 [[nodiscard]] inline Vec3f depths_along_path(const TraversalVoxel& voxel,
                                              std::uint64_t footprints,
                                              float many,
@@ -100,9 +102,9 @@ count_set_cells(std::uint64_t footprints, Vec3f in, Vec3f way) {
     return depth;
 }
 
-/// How far a level's columns hold many fibers behind each other, in [0, 0.3]: grows with the
-/// voxel's edge in fiber radii. Chosen by transmittance against traced geometry
-/// (docs/transport.md).
+/// Returns how crowded the columns of a level are with fibers behind each other, in [0, 0.3]. It
+/// grows with the voxel's edge in fiber radii, and is fitted to the transmittance of traced
+/// geometry (docs/transport.md).
 [[nodiscard]] inline float fiber_crowding(const TraversalLevel& level) {
     constexpr float kFrom = 4.5f; // log2 of an edge of 23 radii
     constexpr float kRise = 0.15f;

@@ -12,12 +12,12 @@
 
 namespace heddle::testing {
 
-/// A 16-bit share.
+/// Returns x in [0, 1] as 16 bits.
 inline std::uint16_t share16(double x) {
     return static_cast<std::uint16_t>(std::lround(x * 65535.0));
 }
 
-/// A voxel of the same coverage on all axes.
+/// Returns a voxel with the same coverage on all axes.
 inline TestVoxel even_voxel(double coverage, const std::vector<Lobe>& lobes) {
     const std::uint16_t c = share16(coverage);
     return {{c, c, c, c}, lobes};
@@ -30,8 +30,8 @@ inline Vec3f random_direction(StreamRandom& random) {
     return {r * std::cos(phi), r * std::sin(phi), z};
 }
 
-/// `count` voxels with indices in [lo, lo + extent), coverages in [0, most] by axis and one or two
-/// random needles each, of material 0.
+/// Adds `count` voxels with indices in [lo, lo + extent), random coverages in [0, most] per axis
+/// and one or two random needles each, of material 0.
 inline void
 add_random(VoxelMap& voxels, StreamRandom& random, Vec3i lo, int extent, int count, double most) {
     const auto index = [&](int from) {
@@ -61,7 +61,7 @@ inline std::shared_ptr<const TraversalLevel> level_of(const VoxelMap& voxels,
     return std::make_shared<const TraversalLevel>(grid);
 }
 
-/// A volume of one level.
+/// Returns a volume of one level.
 inline VolumeInstance volume_of(const VoxelMap& voxels,
                                 const Affine& to_world = {},
                                 Vec3d voxel_size = {1, 1, 1},
@@ -76,7 +76,7 @@ inline Ray ray_along(Vec3d origin, Vec3d direction) {
     return ray;
 }
 
-/// Mean of numbers and its standard error.
+/// The mean of numbers and its standard error.
 struct MeanOf {
     double sum = 0.0, square = 0.0;
     double count = 0.0;
@@ -91,14 +91,14 @@ struct MeanOf {
     }
 };
 
-/// How far above its mean chi-squared lies, in standard deviations (Wilson and Hilferty).
+/// Returns how far chi-squared is above its mean, in standard deviations (Wilson and Hilferty).
 inline double chi_squared_z(const std::vector<double>& observed,
                             const std::vector<double>& expected) {
     double chi = 0.0;
     int degrees = -1;
     for (std::size_t i = 0; i < observed.size(); ++i) {
         if (expected[i] <= 0.0) {
-            chi += 1e6 * observed[i]; // what cannot be was drawn
+            chi += 1e6 * observed[i]; // an impossible value was drawn
             continue;
         }
         chi += (observed[i] - expected[i]) * (observed[i] - expected[i]) / expected[i];

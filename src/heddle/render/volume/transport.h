@@ -9,25 +9,25 @@
 
 namespace heddle {
 
-/// How voxels of one ray are put together. docs/transport.md compares them.
+/// How the extinctions of voxels along a ray are combined. docs/transport.md compares the choices.
 enum class Transport : std::uint8_t {
-    Automatic, ///< Footprint for fibers where the file has footprints, else Product
-    Product,   ///< each voxel on its own: extinctions add up          [Fabre26, LopezMoreno17]
-    Threshold, ///< a ray keeps what it drew from voxel to voxel as their faces correlate; Product
-               ///< where the file has no correlation
-    Footprint, ///< where a ray crosses the voxels' faces decides; Product without footprints
-    /// a FlakeMedium in place of the VolumeInstance: one SGGX a voxel, interpolated [Heitz15]
+    Automatic, ///< Footprint for fibers if the file has footprints, else Product
+    Product,   ///< independent voxels: optical depths add up          [Fabre26, LopezMoreno17]
+    Threshold, ///< neighbours share a random threshold as far as their faces correlate; Product
+               ///< if the file has no correlation
+    Footprint, ///< by the cells of the faces that a ray crosses; Product without footprints
+    /// a FlakeMedium instead of a VolumeInstance: one SGGX per voxel, interpolated [Heitz15]
     Flakes
 };
 
-/// Names on the command line, in the order of Transport.
+/// Returns the names on the command line, in the order of Transport.
 [[nodiscard]] const std::vector<std::string>& transport_names();
 
-/// The transport of that name; Automatic where it is empty.
-/// @throws Error  InvalidArgument: no such name
+/// Returns the transport of that name; Automatic if the name is empty.
+/// @throws Error  InvalidArgument: the name is unknown
 [[nodiscard]] Transport transport_from(const std::string& name);
 
-/// The transport that a level's data allow.
+/// Returns the transport for a level, whose data may not allow the one that is asked for.
 [[nodiscard]] inline Transport resolve(Transport asked, const TraversalLevel& level) {
     if (asked == Transport::Threshold) {
         return level.has_correlation() ? asked : Transport::Product;
@@ -37,15 +37,15 @@ enum class Transport : std::uint8_t {
     return wants && level.has_footprints() ? Transport::Footprint : Transport::Product;
 }
 
-/// One optical depth of three along the axes: the root of the sum of squares.
+/// Combines three optical depths along the axes into one: the root of the sum of squares.
 ///
-/// Exact on the axes, for fibers of one direction, and for fibers of all; crossed sheets would need
-/// the sum instead. Nearer to traced geometry than the sum or their mean (docs/transport.md).
+/// Exact for rays along an axis, for parallel fibers, and for isotropic fibers; crossed sheets
+/// would need the sum. Closer to traced geometry than the sum or their mean (docs/transport.md).
 [[nodiscard]] inline float combine_depths(Vec3f depth) {
     return std::sqrt(dot(depth, depth));
 }
 
-/// A voxel's depths along the axes.
+/// Returns a voxel's optical depths along the axes.
 [[nodiscard]] inline Vec3f depths_of(const TraversalVoxel& voxel) {
     return Vec3f{static_cast<float>(voxel.depth[0]), static_cast<float>(voxel.depth[1]),
                  static_cast<float>(voxel.depth[2])} *

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-// How a ray passes the voxels of one level: one small law for each transport, chosen once a level.
+// How a ray passes the voxels of one level: one small law per transport, chosen once per level.
 
 namespace heddle {
 
@@ -24,35 +24,36 @@ namespace detail {
 
 } // namespace detail
 
-/// What a ray carries through all voxels and levels that it passes: as a free flight what is left
-/// of its threshold, else the depth of what it passed.
+/// The state of a ray across voxels and levels: the remaining threshold of a free flight, or the
+/// optical depth so far if the transmittance is computed.
 ///
 /// The threshold E is an exponential draw. A voxel stops the ray where the optical depth within the
-/// voxel reaches E. Between voxels E is either used up by the depths, or kept in a run of voxels
-/// and drawn anew at its end. In a run the light that passes is 1 - (the run's largest coverage);
-/// its mean over the draws is the same law as the flight's.
+/// voxel reaches E. For independent voxels, each optical depth is subtracted from E. In a run of
+/// voxels, E stays the same and is drawn anew at the end of the run, so that the transmittance of a
+/// run is 1 - (its largest coverage). The mean transmittance over the draws follows the same law as
+/// free flights.
 class RayPassage {
 public:
-    /// @param flight  the ray is a free flight; else its transmittance is summed
+    /// @param flight  the ray is a free flight; else its transmittance is computed
     RayPassage(bool flight, StreamRandom& random)
         : flight_(flight), random_(random), threshold_(draw()) {}
 
-    /// Starts on another level. Levels share no threshold: one that a run has kept is drawn anew.
+    /// Enters another level. A run ends there, so its threshold is drawn anew.
     void enter_level() {
         if (in_run_ && flight_) threshold_ = draw();
         in_run_ = false;
     }
-    /// Passes a voxel that knows nothing of the others: depths add up.
-    /// @return  false: nothing behind matters
+    /// Passes a voxel that is independent of the others: optical depths add up.
+    /// @return  false: the traversal ends here
     bool pass_alone(const VoxelStep& step, float depth) {
         depth_ += depth;
         if (!goes_on(depth)) return stop(step, depth);
         threshold_ -= depth;
         return true;
     }
-    /// Comes to the next voxel of a level whose voxels form runs: the run goes on, its threshold
-    /// kept, or another one begins.
-    /// @param chance  gives the probability that the run goes on; not called at a level's first
+    /// Prepares the next voxel of a level whose voxels form runs: the run continues with its
+    /// threshold, or a new run begins.
+    /// @param chance  returns the probability that the run continues; not called at a level's first
     ///                voxel
     template <typename Chance>
     void continue_run(const Chance& chance) {
@@ -61,8 +62,8 @@ public:
         in_run_ = true;
         largest_ = 0.0f;
     }
-    /// Passes a voxel of a run: of a run only the densest voxel counts.
-    /// @return  false: nothing behind matters
+    /// Passes a voxel of a run, of which only the densest voxel counts.
+    /// @return  false: the traversal ends here
     bool pass_in_run(const VoxelStep& step, float depth) {
         depth_ += std::max(0.0f, depth - largest_);
         largest_ = std::max(largest_, depth);
@@ -74,7 +75,7 @@ public:
     [[nodiscard]] float transmittance() const { return stopped_ ? 0.0f : std::exp(-depth_); }
 
 private:
-    static constexpr float kOpaque = 16.0f; ///< less than 1.2e-7 passes
+    static constexpr float kOpaque = 16.0f; ///< a transmittance below 1.2e-7
 
     [[nodiscard]] float draw() { return -std::log(1.0f - random_.uniform()); }
     [[nodiscard]] bool goes_on(float depth) const {
@@ -89,12 +90,12 @@ private:
 
     bool flight_;
     StreamRandom& random_;
-    float threshold_;      ///< what is left of it where voxels use it up
-    float depth_ = 0.0f;   ///< of what passes
-    float largest_ = 0.0f; ///< of this run
+    float threshold_;      ///< remaining part, if voxels are independent
+    float depth_ = 0.0f;   ///< optical depth so far
+    float largest_ = 0.0f; ///< largest optical depth of this run
     float t_ = 0.0f;
     bool stopped_ = false;
-    bool in_run_ = false; ///< a voxel of a run came before in this level
+    bool in_run_ = false; ///< the last voxel in this level is of a run
 };
 
 /// Product: each voxel stops a ray on its own.                        [Fabre26, LopezMoreno17]
@@ -116,7 +117,7 @@ private:
     Vec3f rate_;
 };
 
-/// Threshold: runs go on as far as the coverages of neighbours correlate; depths as with Product.
+/// Threshold: runs continue as far as the coverages of neighbours correlate; depths as in Product.
 class CorrelatedVoxels {
 public:
     CorrelatedVoxels(const TraversalLevel& level, const VoxelRay& ray, float /*bulk*/)
@@ -126,7 +127,8 @@ public:
         const Vec3f distance = rate_ * (step.t_out - step.t_in);
         return depths_of(level_.voxel(step.voxel)) * distance;
     }
-    /// @param lower  the one of the face's two voxels with the lower index along `axis`
+    /// Returns the probability that a run continues through a face.
+    /// @param lower  of the face's two voxels, the one with the lower index along `axis`
     [[nodiscard]] float keep_chance(int axis, std::int64_t lower) const {
         return static_cast<float>(level_.correlation(lower)[static_cast<std::size_t>(axis)]) *
                (1.0f / 255.0f);
@@ -137,7 +139,7 @@ private:
     Vec3f rate_;
 };
 
-/// Footprint: the cells of each face that a ray's way sweeps stop it.
+/// Footprint: a ray is stopped by the set cells of each face that its path crosses.
 class FootprintVoxels {
 public:
     /// @param bulk  Ray::bulk
@@ -151,11 +153,11 @@ public:
     [[nodiscard]] float keep_chance(int /*axis*/, std::int64_t /*lower*/) const { return kKeep; }
 
 private:
-    /// What neighbours share beyond the cells. Of 0, 0.3, 0.5, 0.7 and 0.8 the value that errs
-    /// least (docs/transport.md).
+    /// Probability that a run continues. Of 0, 0.3, 0.5, 0.7 and 0.8, this value has the smallest
+    /// error (docs/transport.md).
     static constexpr float kKeep = 0.5f;
 
-    /// Where the ray is at t, in [0, 1]^3 of the voxel.
+    /// Returns the point of the ray at t, in [0, 1]^3 of the voxel.
     [[nodiscard]] Vec3f inside(const VoxelStep& step, float t) const {
         const Vec3d at = ray_.origin + ray_.direction * static_cast<double>(t);
         return to_float(at - Vec3d{static_cast<double>(step.at.x), static_cast<double>(step.at.y),
@@ -168,9 +170,9 @@ private:
     float bulk_;
 };
 
-/// The law of voxels that form runs. At the face between two of them the run goes on with the
-/// chance that Voxels tells: 0 would be the product of independent voxels; 1 a ray that, once
-/// through a voxel, passes all that are no denser.
+/// The law of voxels that form runs. At the face between two voxels the run continues with the
+/// probability that Voxels returns. With 0, voxels would be independent; with 1, a ray that has
+/// passed a voxel would pass all others that are no denser.
 /// @tparam Voxels  CorrelatedVoxels or FootprintVoxels
 template <typename Voxels>
 class RunLaw {
@@ -187,7 +189,7 @@ public:
     }
 
 private:
-    /// 0 unless the voxel stands behind a face of the last one.
+    /// Returns 0 unless the voxel shares a face with the last one.
     [[nodiscard]] float keep_chance(const VoxelStep& step) const {
         const Vec3i d = step.at - last_;
         if (std::abs(d.x) + std::abs(d.y) + std::abs(d.z) != 1) return 0.0f;
@@ -201,7 +203,7 @@ private:
     std::int64_t last_voxel_ = 0;
 };
 
-/// Calls walk(law) with the law that the asked transport is in a level, its data allowing.
+/// Calls walk(law) with the law of the transport that resolve() gives for the level.
 /// @param ray   in the level's voxels; must outlive the call
 /// @param bulk  Ray::bulk
 template <typename Walk>

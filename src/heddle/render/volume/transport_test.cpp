@@ -160,7 +160,7 @@ TEST(DepthsOnWay, ARayAlongAnAxisIsStoppedInSetCellsAlone) {
     }
 }
 
-/// Of a way along z through a part of an even voxel.
+/// Blocked fraction of a path along z through a part of a uniform voxel.
 double blocked_of(double coverage, float part, float many, float bulk) {
     const Vec3f in{0.3f, 0.3f, 0.0f}, out{0.3f, 0.3f, part};
     return blocked(depths_along_path(voxel_of(coverage), 0, many, bulk, in, out).z);
@@ -190,7 +190,7 @@ TEST(DepthsOnWay, InTheBulkTheyAddUpAndAreLarger) {
 }
 
 TEST(DepthsOnWay, CellsThatRoundingAddedCountLess) {
-    const TraversalVoxel voxel = voxel_of(0.10); // of two bits, .125
+    const TraversalVoxel voxel = voxel_of(0.10); // two bits cover 0.125
     const Vec3f depth =
         depths_along_path(voxel, 3u << 0, 0.0f, 0.0f, {0, 0.1f, 0.1f}, {1, 0.1f, 0.1f});
     EXPECT_NEAR(blocked(depth.x), 0.8, 1e-3);

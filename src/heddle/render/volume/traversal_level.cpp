@@ -8,7 +8,8 @@
 namespace heddle {
 namespace {
 
-/// TraversalVoxel::depth by coverage, capped as `density` is: -ln(1 - c), c <= 1 - 1 / (2 columns).
+/// Returns TraversalVoxel::depth per 16-bit coverage c, capped like the field `density`: -ln(1 - c)
+/// with c <= 1 - 1 / (2 columns).
 std::vector<std::uint16_t> depth_table(const Lattice& lattice) {
     const double columns = static_cast<double>(lattice.subvoxels) * lattice.subvoxels;
     const double cap = 1.0 - 0.5 / columns;
@@ -21,7 +22,8 @@ std::vector<std::uint16_t> depth_table(const Lattice& lattice) {
     return table;
 }
 
-/// 16 bits of a footprint of 8 x 8 cells: as many as its share rounds to, the fullest cells first.
+/// Reduces a footprint of 8 x 8 cells to 4 x 4: keeps the covered fraction, and sets the fullest
+/// cells first.
 std::uint64_t halve_footprint(std::uint64_t bits) {
     std::array<int, 16> count{};
     for (; bits != 0; bits &= bits - 1) {
@@ -38,7 +40,7 @@ std::uint64_t halve_footprint(std::uint64_t bits) {
     return out;
 }
 
-/// Three footprints of n x n cells as 48 bits.
+/// Packs three footprints of n x n cells into 48 bits.
 std::uint64_t pack_footprints(const std::array<std::uint64_t, 3>& from, int n) {
     std::uint64_t out = 0;
     for (std::size_t a = 0; a < 3; ++a) {

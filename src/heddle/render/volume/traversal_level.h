@@ -12,14 +12,15 @@
 
 namespace heddle {
 
-/// One unit of TraversalVoxel::depth in optical depth: coverage is at most 1 - 1 / 2^21 at level 8,
-/// so depths end below 16.
+/// Optical depth of one unit of TraversalVoxel::depth. Coverage is at most 1 - 1 / 2^21 at level 8,
+/// so optical depths are below 16.
 inline constexpr float kDepthUnit = 16.0f / 65535.0f;
 
-/// What a ray needs of a voxel that it only passes: one 8-byte read.
+/// The data that a ray needs to pass a voxel: one read of 8 bytes.
 struct TraversalVoxel {
     std::array<std::uint16_t, 3> depth{}; ///< -ln(1 - coverage) along each axis, in kDepthUnit
-    std::uint16_t lobe_offset = 0; ///< its first lobe in the leaf's, 12 bits, and lobes - 1 above
+    std::uint16_t lobe_offset =
+        0; ///< 12 low bits: first lobe within the leaf; 4 high bits: lobes - 1
 };
 static_assert(sizeof(TraversalVoxel) == 8);
 
@@ -29,32 +30,32 @@ struct TraversalLeaf {
     std::uint64_t first_voxel = 0;
     std::uint64_t first_lobe = 0;
 
-    /// Number of a voxel in the level's arrays; -1 where none is.
-    /// @param at  any index: its lowest three bits count
+    /// Returns the number of a voxel in the level's arrays; -1 if there is none.
+    /// @param at  any voxel index, of which the lowest three bits are used
     [[nodiscard]] std::int64_t find(Vec3i at) const {
         const std::int32_t number = mask.find(at);
         return number < 0 ? -1 : static_cast<std::int64_t>(first_voxel) + number;
     }
 };
 
-/// One level of an object as rays walk it: leaves of 8^3 voxels in a LeafTable, so that emptiness
-/// is skipped 64 or 8 voxels at a time.
+/// One level of an object in the layout that rays traverse: leaves of 8^3 voxels in a LeafTable, so
+/// that rays skip 64 or 8 empty voxels at a time.
 ///
-/// Memory: 8 bytes a voxel, 8 a lobe, 96 a leaf, those of the table, and the optional arrays.
+/// Memory: 8 bytes per voxel, 8 per lobe, 96 per leaf, the LeafTable, and the optional arrays.
 class TraversalLevel {
 public:
-    /// Copies what `source` holds; it may be dropped then.
+    /// Copies the data of `source`, which need not outlive this object.
     explicit TraversalLevel(const VoxelLevel& source);
 
     [[nodiscard]] const VoxelLevelInfo& info() const { return info_; }
-    /// Voxel indices that hold all voxels: [lo, hi).
+    /// Bounds of the indices of all voxels: [lo, hi).
     [[nodiscard]] Vec3i lo() const { return lo_; }
     [[nodiscard]] Vec3i hi() const { return hi_; }
 
-    /// What is at a voxel index: a leaf, or how much around it is empty.
+    /// A leaf, or the size of the empty cube around a voxel index.
     struct LeafLookup {
         const TraversalLeaf* leaf = nullptr;
-        std::int32_t size = 64; ///< without leaf: edge of the aligned cube that is empty
+        std::int32_t size = 64; ///< if there is no leaf: edge of the aligned empty cube, voxels
     };
     [[nodiscard]] LeafLookup find_leaf(Vec3i at) const {
         const LeafTable<3>::LeafLookup place = table_.find(at);
@@ -73,27 +74,27 @@ public:
         return {leaf.first_lobe + (place & 0xfffu), (place >> 12) + std::size_t{1}};
     }
     [[nodiscard]] const Lobe& lobe(std::size_t l) const { return lobes_[l]; }
-    /// Null where the grid has none.
+    /// Means of the maps in the lobe; null if the level has none.
     [[nodiscard]] const LobeMaps* maps(std::size_t l) const {
         return maps_.empty() ? nullptr : &maps_[l];
     }
     [[nodiscard]] const PackedSggx* tangent(std::size_t l) const {
         return tangents_.empty() ? nullptr : &tangents_[l];
     }
-    /// No material is of surfaces.
+    /// Returns true if all materials are of fibers.
     [[nodiscard]] bool fibers_only() const { return fibers_only_; }
-    /// log2 of the voxel's longest edge over the thinnest fiber's radius; 0 where no radius is
+    /// Returns log2 of the voxel's longest edge in radii of the thinnest fiber; 0 if no radius is
     /// known.
     [[nodiscard]] float fibers_across() const { return fibers_across_; }
     [[nodiscard]] bool has_footprints() const { return !footprints_.empty(); }
-    /// Footprints of 4 x 4 cells along x, y, z, 16 bits each from the lowest on: bit 4 b + a, a and
-    /// b the cell's place on the next two axes.
-    /// @param v  of a level that has footprints
+    /// Footprints of 4 x 4 cells along x, y and z, 16 bits each, from the lowest bit: bit 4 b + a
+    /// is the cell with the indices a and b on the next two axes.
+    /// @param v  a voxel of a level that has footprints
     [[nodiscard]] std::uint64_t footprints(std::int64_t v) const {
         return footprints_[static_cast<std::size_t>(v)];
     }
     [[nodiscard]] bool has_correlation() const { return !correlation_.empty(); }
-    /// VoxelBlock::correlation. @param v  of a level that has it
+    /// VoxelBlock::correlation. @param v  a voxel of a level that has it
     [[nodiscard]] const std::array<std::uint8_t, 3>& correlation(std::int64_t v) const {
         return correlation_[static_cast<std::size_t>(v)];
     }
@@ -109,7 +110,7 @@ private:
     float fibers_across_ = 0.0f;
     Vec3i lo_{}, hi_{};
     LeafTable<3> table_;
-    std::vector<TraversalLeaf> leaves_; ///< by the table's numbers
+    std::vector<TraversalLeaf> leaves_; ///< in the order of the table's numbers
     std::vector<TraversalVoxel> voxels_;
     std::vector<Lobe> lobes_;
     std::vector<LobeMaps> maps_;

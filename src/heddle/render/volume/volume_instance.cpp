@@ -19,7 +19,7 @@ Vec3d scale(Vec3i index, Vec3d h) {
            h;
 }
 
-/// S of R x, for x of S.
+/// Rotates S by `turn`.
 SggxMatrix rotate(const SggxMatrix& S, const Affine& turn) {
     const SymmetricEigen e = decompose(S);
     SymmetricEigen out = e;
@@ -31,16 +31,17 @@ bool is_identity(const Affine& a) {
     return a.x == Affine{}.x && a.y == Affine{}.y && a.z == Affine{}.z;
 }
 
-/// What stopped a ray: a lobe of the voxel, and a direction drawn of it.
+/// A lobe that stopped a ray, and a direction drawn from it.
 struct DrawnLobe {
     std::size_t lobe;
-    bool fiber;   ///< `axis` is a tangent; else a normal, of either side
+    bool fiber;   ///< `axis` is a tangent; else a normal on either side
     SggxMatrix S; ///< unpacked
     Vec3f axis;
 };
 
-/// Number of a lobe, drawn by the lobes' weights.
-/// @param whole  sum of the range's weights
+/// Draws a lobe with probability proportional to its weight.
+/// @param whole  sum of the weights in the range
+/// @return       number of the lobe
 std::size_t draw_lobe_number(const TraversalLevel& level,
                              TraversalLevel::LobeRange range,
                              int whole,
@@ -53,13 +54,13 @@ std::size_t draw_lobe_number(const TraversalLevel& level,
     return lobe;
 }
 
-/// Draws a lobe and a direction of it by how much of them is seen from `from`: tries are refused by
-/// the part that is not seen.
+/// Draws a lobe and a direction from it, by their areas projected along `from`, with rejection
+/// sampling.
 DrawnLobe draw_lobe(const TraversalLevel& level,
                     TraversalLevel::LobeRange range,
                     Vec3f from,
                     StreamRandom& random) {
-    constexpr int kTries = 64; // a needle seen end on: the last is kept
+    constexpr int kTries = 64; // for a needle seen end on; the last try is accepted
     int whole = 0;
     for (std::size_t i = 0; i < range.count; ++i) whole += level.lobe(range.first + i).weight;
     DrawnLobe drawn{std::numeric_limits<std::size_t>::max(), false, {}, {}};
@@ -81,7 +82,7 @@ DrawnLobe draw_lobe(const TraversalLevel& level,
     return drawn;
 }
 
-/// A material times the means of its maps.
+/// Multiplies a material by the means of its maps.
 void apply_maps(const LobeMaps& maps, ScatterMaterial& material) {
     constexpr float kUnit = 1.0f / 255.0f;
     for (int a = 0; a < 3; ++a) {
@@ -92,8 +93,8 @@ void apply_maps(const LobeMaps& maps, ScatterMaterial& material) {
     material.anisotropy *= kUnit * static_cast<float>(maps.anisotropy);
 }
 
-/// The direction of anisotropy at right angles to `axis`: drawn, or any where the lobe has none.
-/// @param lobe  of tangents; may be null
+/// Draws the direction of anisotropy perpendicular to `axis`; any direction if there is no lobe.
+/// @param lobe  distribution of the tangents; may be null
 Vec3f draw_tangent(const PackedSggx* lobe, Vec3f axis, StreamRandom& random) {
     const Vec3f any = any_perpendicular(axis);
     if (lobe == nullptr || !is_positive_definite(*lobe)) return any;
@@ -106,21 +107,21 @@ bool is_microflake(const ScatterMaterial& material) {
            material.model == ScatterModel::MicroflakeDiffuse;
 }
 
-/// Flakes lie around a fiber: turns a lobe of tangents into one of normals, and draws one of those.
+/// Replaces the tangents of fibers by the normals around them, and draws one of these.
 void draw_flake(Vec3f from, StreamRandom& random, Scatterer& out) {
     out.lobe = fit_sggx(moment_of_normals(second_moment_of(out.lobe)));
     out.axis = sample_vndf(factor(out.lobe), from, random);
     out.tangent = any_perpendicular(out.axis);
 }
 
-/// The level that a ray asks for at one place, and how far it does.
+/// The level for the width of a ray at one point, and where that changes.
 struct WantedLevel {
     int level;
-    float end; ///< t at which the next level may be asked for
+    float end; ///< t at which the next level may begin
 };
 
 /// @param voxel_size  of the finest level
-/// @param t, end      the level is wanted at t; a level that is forced holds until `end`
+/// @param t, end      the level is found at t, and is needed until `end` at most
 WantedLevel
 find_wanted(const Ray& ray, const LevelChoice& choice, float voxel_size, float t, float end) {
     if (choice.forced >= 0) return {choice.forced, end};
@@ -129,11 +130,11 @@ find_wanted(const Ray& ray, const LevelChoice& choice, float voxel_size, float t
     const float fine = std::log2(width / voxel_size) + shift;
     int wanted = static_cast<int>(std::clamp(std::floor(fine), 0.0f, 62.0f));
     if (!(ray.spread > 0.0f)) return {wanted, end};
-    const auto until = [&](int level) { // t at which the ray is too wide for it
+    const auto until = [&](int level) { // t at which the ray becomes too wide for `level`
         const float next = voxel_size * std::exp2(static_cast<float>(level) + 1.0f - shift);
         return (next - ray.width) / ray.spread;
     };
-    if (until(wanted) <= t * 1.00001f) ++wanted; // rounding: the last one's end
+    if (until(wanted) <= t * 1.00001f) ++wanted; // t is the end of the last level, rounded
     return {wanted, std::min(end, std::max(until(wanted), t * 1.00001f))};
 }
 
@@ -173,7 +174,7 @@ VolumeInstance::VolumeInstance(TraversalLevels pyramid,
 int VolumeInstance::usable_level(int level) const {
     const int last = static_cast<int>(pyramid_.size()) - 1;
     const int wanted = std::clamp(level, 0, last);
-    for (int away = 0; away <= last; ++away) { // a coarser one before a finer one
+    for (int away = 0; away <= last; ++away) { // the coarser of two first
         for (const int l : {wanted + away, wanted - away}) {
             if (l >= 0 && l <= last && pyramid_[static_cast<std::size_t>(l)]) return l;
         }
@@ -187,7 +188,7 @@ void VolumeInstance::walk(const Ray& ray,
                           const LevelChoice& choice,
                           RayPassage& passage,
                           const Note& note) const {
-    if (object_bounds_.empty()) return; // no ray would ever leave it
+    if (object_bounds_.empty()) return; // the object has no voxels
     const Vec3d origin = to_object_.point(ray.origin);
     const Vec3d direction = to_object_.direction(to_double(ray.direction));
     const RayRange range = clip(origin, direction, ray.clear, ray.t_max, object_bounds_);
@@ -252,7 +253,7 @@ VolumeScatter VolumeInstance::scatter(const VolumeHit& hit,
     out.material = materials[drawn.material];
     if (const LobeMaps* maps = level.maps(lobe.lobe)) apply_maps(*maps, out.material);
     out.lobe = lobe.S;
-    const bool behind = !lobe.fiber && dot(lobe.axis, from) < 0.0f; // normals are of either side
+    const bool behind = !lobe.fiber && dot(lobe.axis, from) < 0.0f; // normals are on either side
     out.axis = behind ? lobe.axis * -1.0f : lobe.axis;
     out.tangent = draw_tangent(level.tangent(lobe.lobe), out.axis, random);
     const bool flakes = is_microflake(out.material);

@@ -294,7 +294,7 @@ TEST(Volume, LobesAreDrawnByWeightAndByHowMuchOfThemIsSeen) {
     ScatterMaterial fiber;
     fiber.model = ScatterModel::LambertFiber;
     const VolumeInstance fibers = two_lobes(MaterialKind::Fiber);
-    // from z both needles are seen in full; halfway to y the second by .707
+    // from z both needles are seen in full; halfway to y the second is seen by 0.707
     EXPECT_NEAR(draw_axes(fibers, {0, 0, 1}, fiber, 20000).first.mean(), 2.0 / 3.0, 0.015);
     const Vec3f aside = normalize(Vec3f{0, 1, 1});
     EXPECT_NEAR(draw_axes(fibers, aside, fiber, 20000).first.mean(), 2.0 / (2.0 + 0.707), 0.015);

@@ -11,24 +11,24 @@ namespace heddle {
 /// A ray in units of a level's voxels: voxel (i, j, k) is [i, i + 1) and so on.
 struct VoxelRay {
     Vec3d origin;
-    Vec3d direction; ///< per unit of the ray's t: not of length 1
+    Vec3d direction; ///< per unit of the ray's t, not of unit length
 };
 
 /// A voxel that a ray crosses.
 struct VoxelStep {
     const TraversalLeaf& leaf;
-    std::int64_t voxel; ///< in the level's arrays
+    std::int64_t voxel; ///< number in the level's arrays
     Vec3i at;           ///< its index
     float t_in, t_out;  ///< t_in <= t_out
 };
 
 namespace detail {
 
-/// The ray from its first voxel's corner on: small numbers, so floats hold them.
+/// A ray relative to the corner of its first voxel: the numbers are small enough for floats.
 struct LocalRay {
     Vec3i base;
-    Vec3f from;      ///< in the first voxel: [0, 1)
-    Vec3f direction; ///< per t, no component is 0
+    Vec3f from;      ///< origin in the first voxel, [0, 1)
+    Vec3f direction; ///< per unit of t; no component is 0
     Vec3f per_voxel; ///< 1 / direction
 };
 
@@ -40,14 +40,14 @@ struct LocalRay {
         out.base[a] = static_cast<std::int32_t>(whole);
         out.from[a] = static_cast<float>(start - whole);
         const auto d = static_cast<float>(ray.direction[a]);
-        constexpr float kMin = 1e-30f; // reaches no face in any t
+        constexpr float kMin = 1e-30f; // so slow that no face is reached
         out.direction[a] = std::fabs(d) > kMin ? d : kMin;
         out.per_voxel[a] = 1.0f / out.direction[a];
     }
     return out;
 }
 
-/// The face of the aligned cube [low, low + size) that a ray leaves by.
+/// The face through which a ray leaves the cube [low, low + size).
 struct Exit {
     float t;
     int axis;
@@ -64,7 +64,7 @@ struct Exit {
     return y <= z ? Exit{y, 1} : Exit{z, 2};
 }
 
-/// The voxel behind that face.
+/// Returns the index of the first voxel beyond that face.
 [[nodiscard]] inline Vec3i step_over(const LocalRay& ray, Vec3i low, std::int32_t size, Exit exit) {
     Vec3i next;
     for (int a = 0; a < 3; ++a) {
@@ -82,8 +82,8 @@ struct Exit {
 } // namespace detail
 
 /// Calls visit(VoxelStep) -> bool for the occupied voxels that a ray crosses between t0 and t1, in
-/// order, until it gives false. Emptiness is crossed 64 or 8 voxels at a time.
-/// @param t0  the ray is within 2^30 voxels of the origin there
+/// order, until it returns false. Skips 64 or 8 empty voxels at a time.
+/// @param t0  the point there must be within 2^30 voxels of the lattice's origin
 template <typename Visit>
 void traverse_voxels(const TraversalLevel& level,
                      const VoxelRay& voxel_ray,
