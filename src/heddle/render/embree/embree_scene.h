@@ -23,7 +23,8 @@ struct TracedObject {
 struct EmbreeOptions {
     std::uint64_t seed = 0; ///< gives the same fibers as VoxelizeOptions::seed
     /// Largest distance, in fiber radii, of nine tenths of a traced fiber's length from the fiber
-    /// of the yarn model. It sets the number of cubics per span of a yarn; fewer if memory is short.
+    /// of the yarn model. It sets the number of cubics per span of a yarn; fewer if memory is
+    /// short.
     float tolerance = 0.03f;
     std::int64_t memory_bytes = std::int64_t{12} << 30; ///< limit for the scene
 };
