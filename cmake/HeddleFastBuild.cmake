@@ -4,9 +4,10 @@ if(NOT PROJECT_IS_TOP_LEVEL)
 endif()
 find_program(HEDDLE_CCACHE ccache)
 if(HEDDLE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  # A file with the same flags is also taken from the cache in another build folder. Precompiled
-  # headers need the sloppiness.
-  set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_NOHASHDIR=1
+  # A file with the same flags is also taken from the cache in another build folder: the paths in a
+  # command, that of a precompiled header among them, are hashed relative to the build folder.
+  # Precompiled headers need the sloppiness.
+  set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1
     CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
     ${HEDDLE_CCACHE})
   set(CMAKE_CUDA_COMPILER_LAUNCHER ${CMAKE_CXX_COMPILER_LAUNCHER})
