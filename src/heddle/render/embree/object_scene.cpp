@@ -14,6 +14,17 @@ namespace {
 /// its builder's lists before the tree is complete, so the final size is also the peak.
 constexpr std::int64_t kBytesPerSegment = 118;
 
+/// Returns a length of the order of the geometry. The scales of yarns are kept in this unit in
+/// single precision, so the last bits of a picture depend on it.
+double unit_of(const Geometry& geometry) {
+    Bounds box;
+    for (const CurveSet& set : geometry.curves) {
+        for (const Vec3f p : set.points) box.grow(to_double(p));
+    }
+    const Vec3d size = box.size();
+    return 1.0 + std::max({size.x, size.y, size.z});
+}
+
 RTCGeometryType type_of(RoundBasis basis) {
     switch (basis) {
     case RoundBasis::Linear: return RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE;
@@ -67,6 +78,7 @@ void ObjectScene::add_curves(Progress& progress) {
     }
     constexpr double kWholeSpans = std::numeric_limits<double>::infinity();
     const FiberSource source(*geometry_, kWholeSpans, options_.seed);
+    const double unit = unit_of(*geometry_);
     std::uint64_t first_span = 0;
     for (std::uint32_t s = 0; s < geometry_->curves.size(); ++s) {
         const CurveSet& set = geometry_->curves[s];
@@ -74,7 +86,7 @@ void ObjectScene::add_curves(Progress& progress) {
         if (yarn == nullptr || yarn->model == YarnModel::Solid) {
             attach_curves(plain_curves(*geometry_, set));
         } else {
-            add_yarns(source, {s, first_span}, progress);
+            add_yarns(source, {s, first_span, unit}, progress);
         }
         for (std::size_t c = 0; c < set.curve_count(); ++c) first_span += set.span_count(c);
     }

@@ -118,7 +118,7 @@ double cubic_error(const FiberSource& source, YarnSet yarns, int cubics) {
     for (std::size_t i = 0; i < curves; ++i) {
         const CurvePlace& at = places[i * all / curves];
         if (at.segments == 0) continue;
-        const YarnPath path(source, at.first_span);
+        const YarnPath path(source, at.first_span, yarns.unit);
         const std::size_t count = std::min<std::size_t>(kCubics, at.segments);
         for (std::size_t k = 0; k < count; ++k) {
             const std::size_t cubic = (2 * k + 1) * at.segments / (2 * count);
@@ -163,7 +163,7 @@ RoundCurves yarn_curves(const FiberSource& source, YarnSet yarns, int cubics, Pr
                        static_cast<std::uint32_t>(std::max<std::uint64_t>(at.segments, 1))};
         if (at.segments == 0) return;
         progress.check();
-        const YarnPath path(source, at.first_span);
+        const YarnPath path(source, at.first_span, yarns.unit);
         fill_curve(path, cubics, at, out);
         if (colored) {
             std::copy_n(path.table().color.begin(), path.table().size(),

@@ -12,6 +12,7 @@ namespace heddle {
 struct YarnSet {
     std::uint32_t set = 0;        ///< index into Geometry::curves
     std::uint64_t first_span = 0; ///< first span of the set among all spans of the source
+    double unit = 1.0;            ///< unit of the courses' scales, scene units
 };
 
 /// Chooses how many cubics per span of the yarn keep fibers within `tolerance` of the yarn model.

@@ -51,8 +51,8 @@ struct HairCurves {
     }
 };
 
-HairCurves hairs_of(const FiberSource& source, std::uint64_t first_span) {
-    const YarnPath path(source, first_span);
+HairCurves hairs_of(const FiberSource& source, std::uint64_t first_span, double unit) {
+    const YarnPath path(source, first_span, unit);
     const HairModel model(HairShape(path.yarn()), path.total(), path.closed());
     HairCurves out;
     for (std::size_t ply = 0; ply < path.ply_count(); ++ply) {
@@ -82,7 +82,7 @@ RoundCurves yarn_hairs(const FiberSource& source, YarnSet yarns, Progress& progr
     std::vector<HairCurves> hairs(set.curve_count());
     parallel_chunks(set.curve_count(), 1, [&](std::size_t c, std::size_t) {
         progress.check();
-        if (first[c + 1] > first[c]) hairs[c] = hairs_of(source, first[c]);
+        if (first[c + 1] > first[c]) hairs[c] = hairs_of(source, first[c], yarns.unit);
         progress.advance(1);
     });
     std::size_t points = 0;

@@ -3,8 +3,8 @@
 #include <heddle/yarn/flyaway.h>
 
 namespace heddle {
-YarnPath::YarnPath(const FiberSource& source, std::uint64_t first_span)
-    : yarn_(*source.yarn_of(source.whole_span(first_span).set)) {
+YarnPath::YarnPath(const FiberSource& source, std::uint64_t first_span, double unit)
+    : yarn_(*source.yarn_of(source.whole_span(first_span).set)), unit_(unit) {
     const FiberPiece first = source.whole_span(first_span);
     seed_ = source.seed() + first.set;
     curve_ = first.curve;
@@ -13,7 +13,7 @@ YarnPath::YarnPath(const FiberSource& source, std::uint64_t first_span)
     spans_.reserve(set.span_count(curve_));
     for (std::uint64_t k = 0; k < set.span_count(curve_); ++k) {
         const FiberPiece piece = source.whole_span(first_span + k);
-        spans_.push_back({piece.cubic, source.course(piece, 1.0)});
+        spans_.push_back({piece.cubic, source.course(piece, unit_)});
     }
     const auto d = [](float x) { return static_cast<double>(x); };
     if (yarn_.model == YarnModel::Slice) {
@@ -35,7 +35,9 @@ TracedYarnFrame YarnPath::at(double t) const {
     if (closed() && t >= count) t -= count; // whole rounds are whole turns of all
     const double k = std::clamp(std::floor(t), 0.0, count - 1.0);
     const Span& span = spans_[static_cast<std::size_t>(k)];
-    return {span.cubic, span.course, t - k};
+    TracedYarnFrame frame(span.cubic, span.course, t - k);
+    frame.scale *= unit_;
+    return frame;
 }
 
 double YarnPath::knot_of_length(double s) const {

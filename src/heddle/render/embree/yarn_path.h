@@ -25,7 +25,8 @@ struct TracedPlyFrame {
 class YarnPath {
 public:
     /// @param first_span  first span of the curve among all spans of the source
-    YarnPath(const FiberSource& source, std::uint64_t first_span);
+    /// @param unit        unit of the courses' scales, which are in single precision; scene units
+    YarnPath(const FiberSource& source, std::uint64_t first_span, double unit);
 
     [[nodiscard]] std::size_t span_count() const { return spans_.size(); }
     [[nodiscard]] const FiberTable& table() const { return table_; }
@@ -56,6 +57,7 @@ private:
     [[nodiscard]] double loop_factor(std::size_t fiber, double s) const;
 
     const YarnType& yarn_;
+    double unit_;
     std::uint64_t seed_;
     std::uint64_t curve_ = 0;
     FiberTable table_;
