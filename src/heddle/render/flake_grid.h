@@ -43,7 +43,7 @@ public:
     };
     /// Finds the flakes around a point.
     /// @param at  relative to the leaf's corner, in cells, in [0, 8]
-    [[nodiscard]] static TrilinearLookup look_up(std::uint32_t leaf, Vec3f at);
+    [[nodiscard]] static TrilinearLookup look_up(std::uint32_t leaf, const Vec3f& at);
     [[nodiscard]] float sigma_t(std::uint32_t leaf, const TrilinearLookup& at) const;
     [[nodiscard]] SggxMatrix S(const TrilinearLookup& at) const;
     [[nodiscard]] Vec3f albedo(const TrilinearLookup& at) const;
