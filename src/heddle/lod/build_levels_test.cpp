@@ -253,6 +253,59 @@ TEST(BuildLevels, Level0AloneHasTheCorrelationItHasAmongAllLevels) {
     EXPECT_TRUE(content_of(*alone[0]) == content_of(*all[0]));
 }
 
+/// Returns the cells of level 0 in the cells of a coarser level.
+std::map<Key, std::uint64_t> pool_cells(const VoxelLevel& finest, int level) {
+    std::map<Key, std::uint64_t> pooled;
+    for_each_voxel(finest, [&](const BlockVoxel& v) {
+        std::uint64_t& cells = pooled[parent_of(v.at, level)];
+        const Vec3i first =
+            (v.at - Vec3i{v.at.x >> level, v.at.y >> level, v.at.z >> level} * (1 << level)) * 4;
+        for (int i = 0; i < 64; ++i) {
+            if ((v.occupancy() >> i & 1) == 0) continue;
+            const Vec3i at = first + Vec3i{i / 16, i / 4 % 4, i % 4};
+            const int cell = ((at.x >> level) * 4 + (at.y >> level)) * 4 + (at.z >> level);
+            cells |= std::uint64_t{1} << cell;
+        }
+    });
+    return pooled;
+}
+
+TEST(BuildLevels, OccupancyIsTheUnionOfAllCellsBelow) {
+    for (const LodMethod method : {LodMethod::Moments, LodMethod::Naive}) {
+        const VoxelLevels levels = build(swatch(), with_sums(150), {.method = method});
+        ASSERT_GE(levels.size(), 7u);
+        for (std::size_t l = 1; l < levels.size(); ++l) {
+            const std::map<Key, std::uint64_t> pooled = pool_cells(*levels[0], static_cast<int>(l));
+            const LevelContent content = content_of(*levels[l]);
+            ASSERT_EQ(content.size(), pooled.size()) << "level " << l;
+            for (const auto& [at, cells] : pooled) {
+                ASSERT_EQ(content.at(at).occupancy, cells) << "level " << l;
+            }
+        }
+    }
+}
+
+TEST(BuildLevels, OccupancyIsRebuiltFromAFileWithoutSums) {
+    VoxelizeOptions options = with_sums(100);
+    options.keep_sums = false;
+    const std::vector<LevelContent> before = contents_of(build(swatch(), options));
+    LodOptions single;
+    single.method = LodMethod::Single;
+    Progress silent;
+    VoxelLevels again = rebuild_levels(build(swatch(), options), single, false, silent);
+    for (std::size_t l = 0; l < again.size(); ++l) {
+        for (const auto& [at, content] : content_of(*again[l])) {
+            ASSERT_EQ(content.occupancy, before[l].at(at).occupancy) << "level " << l;
+        }
+    }
+    options.occupancy = false;
+    again = rebuild_levels(build(swatch(), options), single, false, silent);
+    for (const auto& level : again) {
+        EXPECT_FALSE(level->info().fields.occupancy);
+        for_each_voxel(*level, [](const BlockVoxel& v) { ASSERT_EQ(v.occupancy(), 0u); });
+    }
+}
+
 TEST(BuildLevels, ARebuildWithMasksGivesTheSameBits) {
     VoxelizeOptions options = with_sums(120);
     options.footprints = 4;

@@ -5,6 +5,7 @@
 #include <heddle/sggx/pack.h>
 #include <heddle/voxel/footprint.h>
 #include <heddle/voxel/leaf_voxels.h>
+#include <heddle/voxel/occupancy.h>
 
 #include <bit>
 #include <cmath>
@@ -160,8 +161,11 @@ std::uint64_t seed_of(const LevelOptions& options, int level, Vec3i index) {
 
 void join_seen(OpenVoxel& parent, CoverageRule rule, const std::array<const OpenVoxel*, 8>& child) {
     const bool product = rule == CoverageRule::Product;
-    for (const OpenVoxel* c : child) {
-        if (c != nullptr) parent.hits += c->hits;
+    for (int octant = 0; octant < 8; ++octant) {
+        const OpenVoxel* const c = child[static_cast<std::size_t>(octant)];
+        if (c == nullptr) continue;
+        parent.hits += c->hits;
+        parent.cells |= cells_in_parent(c->cells, octant);
     }
     if (rule == CoverageRule::Union) return;
     for (int axis = 0; axis < 3; ++axis) {
@@ -192,6 +196,7 @@ void open_block(const VoxelBlock& stored,
         const Coverage& c = from.coverage();
         OpenVoxel& voxel = out.voxels.emplace_back();
         voxel.hits = (std::int64_t{c.occupancy} * n * n * n + 32767) / 65535;
+        voxel.cells = from.occupancy();
         const std::array<std::uint16_t, 3> covered{c.x, c.y, c.z};
         for (int a = 0; a < 3; ++a) {
             const double seen = covered[static_cast<std::size_t>(a)] / 65535.0;
@@ -240,6 +245,7 @@ void append_coverage(const OpenVoxel& voxel,
     const double n = std::ldexp(static_cast<double>(options.lattice.subvoxels), level);
     Coverage& c = out.coverage.emplace_back();
     c.occupancy = wide_fraction16(voxel.hits, n * n * n);
+    if (options.fields.occupancy) out.occupancy.push_back(voxel.cells);
     if (options.coverage == CoverageRule::Union) {
         c.x = wide_fraction16(covered[0], n * n);
         c.y = wide_fraction16(covered[1], n * n);

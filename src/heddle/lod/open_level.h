@@ -46,6 +46,7 @@ struct OpenVoxel {
     std::uint32_t first_lobe = 0;
     std::uint32_t order = 0; ///< VoxelBlock::merge_order
     std::uint8_t lobe_count = 0;
+    std::uint64_t cells = 0; ///< VoxelBlock::occupancy
 };
 
 /// The voxels of one level in one block, unquantized, while the level above is built from them.
@@ -104,7 +105,7 @@ struct OpenLevel {
     return static_cast<std::uint16_t>(share < 65535.0 ? share : 65535.0);
 }
 
-/// Adds the hits of all children to a parent, and their `seen` by the coverage rule.
+/// Adds the hits and cells of all children to a parent, and their `seen` by the coverage rule.
 /// @param child  number 4 x + 2 y + z; null: no such child
 void join_seen(OpenVoxel& parent, CoverageRule rule, const std::array<const OpenVoxel*, 8>& child);
 

@@ -29,6 +29,7 @@ struct BlockVoxel {
     [[nodiscard]] std::array<std::uint8_t, 3> correlation() const {
         return of_voxel(block.correlation);
     }
+    [[nodiscard]] std::uint64_t occupancy() const { return of_voxel(block.occupancy); }
     /// Returns its 1 to K lobes, the heaviest first.
     [[nodiscard]] std::span<const Lobe> lobes() const { return of_lobes(block.lobes); }
     /// These return one element per lobe; empty if the block does not have the field.

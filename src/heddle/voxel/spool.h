@@ -6,6 +6,8 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <tuple>
+#include <utility>
 
 namespace heddle {
 
@@ -23,10 +25,12 @@ public:
     [[nodiscard]] const VoxelBlock& block(std::size_t i, VoxelBlock& scratch) const override;
 
 private:
+    static constexpr std::size_t kArrays =
+        std::tuple_size_v<decltype(VoxelBlock::arrays(std::declval<VoxelBlock&>()))>;
     struct BlockRecord {
         std::int64_t offset = 0;
         std::uint32_t leaves = 0;
-        std::array<std::uint32_t, 11> sizes{}; ///< of the vectors of for_each_array()
+        std::array<std::uint32_t, kArrays> sizes{}; ///< of the vectors of for_each_array()
     };
     TempFile file_;
     std::vector<BlockRecord> records_;

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -90,6 +91,7 @@ struct VoxelFields {
     bool masks = false; ///< of level 0: columns and sums, so that levels can be built again exactly
     bool correlation = false;    ///< what neighbouring voxels share
     std::int32_t footprints = 0; ///< cells per axis of a voxel's face: 4 or 8; 0: none
+    bool occupancy = false;      ///< which of a voxel's 4 x 4 x 4 cells contain geometry
 
     [[nodiscard]] bool maps() const { return albedo || surface; }      ///< has LobeMaps
     [[nodiscard]] bool map_sums() const { return maps() || tangents; } ///< has MapSums with masks
@@ -137,13 +139,20 @@ struct VoxelBlock {
                                                           ///< next voxel on each axis, 255 = 1:
                                                           ///< the same columns; with
                                                           ///< fields.correlation
+    std::vector<std::uint64_t> occupancy; ///< per voxel: cells that contain geometry (occupancy.h);
+                                          ///< with fields.occupancy
 
+    /// Returns references to all vectors but `leaves`.
+    template <typename Self>
+    static auto arrays(Self& block) {
+        return std::tie(block.coverage, block.lobe_count, block.lobes, block.maps, block.tangents,
+                        block.merge_order, block.columns, block.moments, block.map_sums,
+                        block.footprints, block.correlation, block.occupancy);
+    }
     /// Calls f with each of the vectors but `leaves`.
     template <typename Self, typename F>
     static void for_each_array(Self& block, const F& f) {
-        f(block.coverage), f(block.lobe_count), f(block.lobes), f(block.maps), f(block.tangents);
-        f(block.merge_order), f(block.columns), f(block.moments), f(block.map_sums);
-        f(block.footprints), f(block.correlation);
+        std::apply([&f](auto&... array) { (f(array), ...); }, arrays(block));
     }
     [[nodiscard]] std::int64_t byte_count() const {
         std::size_t sum = leaves.capacity() * sizeof(VoxelLeaf);
@@ -176,7 +185,8 @@ struct LevelSize {
                                                       std::int64_t lobes,
                                                       const VoxelFields& fields) {
     const std::size_t per_voxel = sizeof(Coverage) + 1 + (fields.masks ? 24 : 0) +
-                                  (fields.footprints != 0 ? 24 : 0) + (fields.correlation ? 3 : 0);
+                                  (fields.footprints != 0 ? 24 : 0) + (fields.correlation ? 3 : 0) +
+                                  (fields.occupancy ? sizeof(std::uint64_t) : 0);
     const std::size_t sums = sizeof(LobeMoment) + (fields.map_sums() ? sizeof(MapSums) : 0);
     const std::size_t per_lobe = sizeof(Lobe) + (fields.maps() ? sizeof(LobeMaps) : 0) +
                                  (fields.tangents ? sizeof(PackedSggx) : 0) +

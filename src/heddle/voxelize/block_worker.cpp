@@ -35,6 +35,7 @@ VoxelizeContext::VoxelizeContext(const PreparedGeometry& prepared_in,
           .fields = fields_of(prepared_in.geometry)} {
     fit.fields.masks = options_in.keep_sums || with_sums;
     fit.fields.footprints = options_in.footprints;
+    fit.fields.occupancy = options_in.occupancy;
     fit.fields.correlation = options_in.correlation;
     for (std::uint32_t m = 0; m < prepared.geometry.materials.size(); ++m) {
         if (prepared.geometry.materials[m].kind == MaterialKind::Surface) fit.normals.add(m);

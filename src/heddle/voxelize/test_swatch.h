@@ -75,6 +75,7 @@ struct Content {
     std::uint32_t merge_order = 0;
     std::array<std::uint64_t, 3> footprints{};
     std::array<std::uint8_t, 3> correlation{};
+    std::uint64_t occupancy = 0;
     friend bool operator==(const Content&, const Content&) = default;
 };
 
@@ -86,7 +87,8 @@ inline std::map<Key, Content> content_of(const VoxelLevel& source) {
                                              {v.maps().begin(), v.maps().end()},
                                              v.merge_order(),
                                              v.footprints(),
-                                             v.correlation()};
+                                             v.correlation(),
+                                             v.occupancy()};
     });
     EXPECT_EQ(static_cast<std::int64_t>(content.size()), source.info().voxel_count);
     return content;
@@ -112,6 +114,7 @@ inline void expect_same_block(const VoxelBlock& a, const VoxelBlock& b) {
     ASSERT_TRUE(a.map_sums == b.map_sums);
     ASSERT_TRUE(a.footprints == b.footprints);
     ASSERT_TRUE(a.correlation == b.correlation);
+    ASSERT_TRUE(a.occupancy == b.occupancy);
 }
 
 } // namespace heddle::test

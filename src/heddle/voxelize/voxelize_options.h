@@ -19,6 +19,7 @@ struct VoxelizeOptions {
     CoverageMode coverage = CoverageMode::Columns;
     FitMode fit = FitMode::Moments;
     std::int32_t footprints = 0;   ///< cells per axis of the stored footprints: 0, 4 or 8
+    bool occupancy = true;         ///< the result has VoxelFields::occupancy
     bool correlation = false;      ///< a BlockVisitor computes the correlation of neighbours; then
                                    ///< all blocks stay in memory
     std::int64_t samples = 0;      ///< per span, with CoverageMode::Mask; 0: two per subvoxel

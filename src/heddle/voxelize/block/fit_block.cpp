@@ -3,6 +3,7 @@
 #include <heddle/base/trig.h>
 #include <heddle/voxel/footprint.h>
 #include <heddle/voxel/lobe_pool.h>
+#include <heddle/voxel/occupancy.h>
 
 #include <algorithm>
 #include <array>
@@ -101,6 +102,9 @@ HEDDLE_INLINE std::int64_t append_voxel(BlockFit& fit, const VoxelSums& voxel) {
             face.add(0, column[axis]);
             bits[axis] = face.bits(options.fields.footprints);
         }
+    }
+    if (options.fields.occupancy) {
+        fit.out.occupancy.push_back(cells_of_subvoxels(voxel.sub.data(), n));
     }
     const std::uint32_t order = pool_lobes(fit, voxel);
     append_lobes(fit.pool, order, options.fields, fit.fits, fit.out);
