@@ -14,6 +14,7 @@ enum class GridKind : std::uint8_t {
     Columns,       ///< int64, one grid per axis
     Footprint,     ///< int64: of 4 x 4 cells, three axes in one
     FootprintAxis, ///< int64: of 8 x 8 cells, one grid per axis
+    Occupancy,     ///< int64
     Correlation,   ///< int32
     Merge,         ///< int32
     Lobe,          ///< int64, one grid per lobe

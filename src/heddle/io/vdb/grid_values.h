@@ -138,6 +138,17 @@ struct FootprintValues : OfVoxel {
     }
 };
 
+/// The cells that contain geometry.
+struct OccupancyValues : OfVoxel {
+    using Value = std::int64_t;
+    [[nodiscard]] Value value(const VoxelBlock& b, std::size_t v, std::size_t) const {
+        return std::bit_cast<Value>(b.occupancy[v]);
+    }
+    void put(VoxelBlock& b, std::size_t v, std::size_t, Value from) const {
+        b.occupancy[v] = std::bit_cast<std::uint64_t>(from);
+    }
+};
+
 struct CorrelationValues : OfVoxel {
     using Value = std::int32_t;
     [[nodiscard]] Value value(const VoxelBlock& b, std::size_t v, std::size_t) const {

@@ -34,6 +34,7 @@ void for_each_voxel_grid(const LevelGrids& of, const Visit& visit) {
     for (std::size_t a = 0; a < 3 && of.fields.footprints == 8; ++a) {
         visit(name(GridKind::FootprintAxis, a), FootprintAxisValues{{}, a});
     }
+    if (of.fields.occupancy) visit(name(GridKind::Occupancy), OccupancyValues{});
     if (of.fields.correlation) visit(name(GridKind::Correlation), CorrelationValues{});
     if (of.merge) visit(name(GridKind::Merge), MergeValues{});
 }

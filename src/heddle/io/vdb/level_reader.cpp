@@ -59,6 +59,7 @@ void size_arrays(VoxelBlock& block, const LevelGrids& of) {
     if (masks) block.moments.resize(lobes);
     if (masks && of.fields.map_sums()) block.map_sums.resize(lobes);
     if (of.fields.footprints != 0) block.footprints.resize(voxels);
+    if (of.fields.occupancy) block.occupancy.resize(voxels);
     if (of.fields.correlation) block.correlation.resize(voxels);
     if (of.merge && std::any_of(block.lobe_count.begin(), block.lobe_count.end(), three)) {
         block.merge_order.resize(voxels);

@@ -4,6 +4,8 @@
 #include <heddle/io/vdb/predict_vdb.h>
 #include <heddle/io/vdb/read_vdb.h>
 #include <heddle/io/vdb/test_levels.h>
+#include <heddle/io/vdb/vdb_file.h>
+#include <heddle/io/vdb/vdb_format.h>
 #include <heddle/io/vdb/write_vdb.h>
 
 #include <gtest/gtest.h>
@@ -115,7 +117,7 @@ TEST_F(VdbLevels, GridsStandLevelByLevelInTheFile) {
     VoxelLevels levels = make_levels(2, 4);
     std::vector<std::string> names, want{"density", "tangentu", "normal", "coverage"};
     want.insert(want.end(), {"columns_x", "columns_y", "columns_z"});
-    want.insert(want.end(), {"footprint", "correlation", "merge"});
+    want.insert(want.end(), {"footprint", "occupancy", "correlation", "merge"});
     for (const std::string k : {"0", "1", "2"}) {
         for (const char* kind : {"lobe_", "albedo_", "surface_", "aniso_"}) {
             want.push_back(kind + k);
@@ -123,9 +125,9 @@ TEST_F(VdbLevels, GridsStandLevelByLevelInTheFile) {
         for (int j = 0; j < 19; ++j) want.push_back(str("sums_", k, "_", j));
     }
     for (const char* kind :
-         {"density", "tangentu", "normal", "coverage", "footprint", "correlation", "merge",
-          "lobe_0", "albedo_0", "surface_0", "aniso_0", "lobe_1", "albedo_1", "surface_1",
-          "aniso_1", "lobe_2", "albedo_2", "surface_2", "aniso_2"}) {
+         {"density",   "tangentu", "normal",   "coverage",  "footprint", "occupancy", "correlation",
+          "merge",     "lobe_0",   "albedo_0", "surface_0", "aniso_0",   "lobe_1",    "albedo_1",
+          "surface_1", "aniso_1",  "lobe_2",   "albedo_2",  "surface_2", "aniso_2"}) {
         want.push_back(str(kind, "_level_1"));
     }
     for (const GridSummary& g : summarize_vdb(write(levels))) {
@@ -156,6 +158,7 @@ TEST_F(VdbLevels, TheHashSeesEveryArray) {
     EXPECT_NE(changed([](VoxelBlock& a, VoxelBlock&) { a.moments[0].weight ^= 1; }), hash);
     EXPECT_NE(changed([](VoxelBlock& a, VoxelBlock&) { a.map_sums[0].anisotropy ^= 1; }), hash);
     EXPECT_NE(changed([](VoxelBlock&, VoxelBlock& b) { b.footprints[0][1] ^= 1; }), hash);
+    EXPECT_NE(changed([](VoxelBlock&, VoxelBlock& b) { b.occupancy[0] ^= 1; }), hash);
     EXPECT_NE(changed([](VoxelBlock&, VoxelBlock& b) { b.correlation[0][1] ^= 1; }), hash);
 }
 
@@ -179,6 +182,33 @@ TEST_F(VdbLevels, LevelsThatAreMissingDoubledOrOutOfPlaceAreRefused) {
     expect_refused(count, other, " voxels and ");
 }
 
+TEST_F(VdbLevels, AFileWithOccupancyIsOfFormat3AndOneWithoutOfFormat2) {
+    const auto format = [&](const VoxelLevels& levels) {
+        return read_contents(write(levels)).metadata.at(kFormatKey);
+    };
+    VoxelLevels levels = make_levels(2);
+    EXPECT_EQ(format(levels), "3");
+    EXPECT_TRUE(read_infos(file("levels.vdb"))[1].fields.occupancy);
+    for (std::size_t i = 0; i < 2; ++i) {
+        grid_of(levels, i).info().fields.occupancy = false;
+        for (VoxelBlock& block : grid_of(levels, i).blocks) block.occupancy = {};
+    }
+    EXPECT_EQ(format(levels), "2");
+    EXPECT_FALSE(read_infos(file("levels.vdb"))[1].fields.occupancy);
+    testing::expect_same_voxels(grid_of(levels, 1), grid_of(read_levels(file("levels.vdb")), 1));
+}
+
+TEST_F(VdbLevels, ANewerFormatIsRefusedInOneLine) {
+    std::string bytes = testing::slurp(write(make_levels(2)));
+    const std::size_t key = bytes.find(kFormatKey);
+    const std::size_t value = bytes.find(testing::bytes(std::int32_t{4}, std::int32_t{3}), key);
+    ASSERT_NE(value, std::string::npos);
+    bytes[value + 4] = 4;
+    const std::string path = folder_.write("new.vdb", bytes);
+    expect_error(ErrorCode::Unsupported, "format version 4 (allowed: 2 and 3)",
+                 [&] { (void)read_infos(path); });
+}
+
 TEST_F(VdbLevels, AFileFromBeforeThereWereLevelsReadsAsOne) {
     MemoryLevel grid = testing::make_mixed();
     write_vdb(grid, file("new.vdb"), progress_);
@@ -199,6 +229,7 @@ TEST_F(VdbLevels, GridsThatAreMissingAreRefused) {
     expect_refused("aniso_1_level_1", "enisa_1_level_1", "grid 'aniso_1_level_1' is missing");
     expect_refused("footprint_z_level_2", "hootprint_z_level_2",
                    "grid 'footprint_z_level_2' is missing");
+    expect_refused("occupancy_level_2", "uccupancy_level_2", "grid 'occupancy_level_2' is missing");
     expect_refused("correlation_level_1", "borrelation_level_1",
                    "grid 'correlation_level_1' is missing");
     expect_refused("lobe_2_level_2", "mobe_2_level_2", "level 2 holds");

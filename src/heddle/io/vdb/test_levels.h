@@ -68,6 +68,7 @@ inline void add_level_arrays(MemoryLevel& grid) {
                 block.footprints.push_back(
                     {random.next() & kept, random.next() & kept, random.next() & kept});
             }
+            if (has.occupancy) block.occupancy.push_back(random.next());
             if (has.correlation) {
                 const auto byte = [&] { return static_cast<std::uint8_t>(random.next()); };
                 block.correlation.push_back({byte(), byte(), byte()});
@@ -98,6 +99,7 @@ make_levels(int count, std::int32_t footprints = 8, const std::vector<int>& shif
         about.lod = "moments";
         about.fields.masks = about.fields.correlation = true;
         about.fields.footprints = footprints;
+        about.fields.occupancy = true;
         add_level_arrays(*grid);
         grid->blocks[0].coverage[0].x = static_cast<std::uint16_t>(level); // the levels differ
         levels.push_back(std::move(grid));
@@ -154,6 +156,7 @@ inline void expect_same_voxels(const MemoryLevel& a, const MemoryLevel& b) {
         EXPECT_TRUE(of_voxels(p->columns, q->columns));
         EXPECT_TRUE(of_voxels(p->footprints, q->footprints));
         EXPECT_TRUE(of_voxels(p->correlation, q->correlation));
+        EXPECT_TRUE(of_voxels(p->occupancy, q->occupancy));
         for (std::size_t v = 0; v < n; ++v) {
             if (counts[v] < 3 || p->merge_order.empty()) continue;
             ASSERT_FALSE(q->merge_order.empty());

@@ -28,6 +28,7 @@ void check_arrays(const VoxelBlock& block, const VoxelLevelInfo& info) {
                        is(block.columns, masks, voxels) && is(block.moments, masks, lobes) &&
                        is(block.map_sums, masks && has.map_sums(), lobes) &&
                        is(block.footprints, has.footprints != 0, voxels) &&
+                       is(block.occupancy, has.occupancy, voxels) &&
                        is(block.correlation, has.correlation, voxels) &&
                        is(block.merge_order, !block.merge_order.empty(), voxels);
     if (!whole) fail("a block's arrays are not as long as its fields say");
