@@ -39,6 +39,7 @@ job::VolJobOptions vol_options_from(const Arguments& arguments) {
     options.lobes = static_cast<std::int32_t>(arguments.integer("lobes"));
     options.lod = lod_method_from(arguments);
     options.levels = level_count_from(arguments);
+    options.occupancy = arguments.integer("occupancy") != 0;
     options.seed = static_cast<std::uint64_t>(arguments.integer("seed"));
     options.memory_bytes = arguments.find_bytes("memory");
     options.command = arguments.command_line;

@@ -83,6 +83,8 @@ Command voxelize_command() {
                      "(4 if there are only curves, else 0; 0 with --lod naive)",
                      one_of({"0", "4", "8"}), "cells per axis",
                      "Stores which cells of a voxel's faces are covered; used by --transport footprint. 0 = none."},
+                    {"--occupancy", "N", "4", one_of({"0", "4"}), "cells per axis",
+                     "Stores which of 4 x 4 x 4 cells of a voxel contain geometry. 0 = none."},
                     {"--correlation", "", "", flag(), "",
                      "Stores, per voxel face, how much the occlusion of the two neighbours overlaps (1 byte); used by --transport threshold."},
                     {"--keep-masks", "", "", flag(), "",

@@ -88,6 +88,7 @@ job::VoxelizeJobOptions voxelize_options_from(const Arguments& arguments) {
     if (arguments.given("footprints")) {
         options.footprints = static_cast<std::int32_t>(arguments.integer("footprints"));
     }
+    options.occupancy = arguments.integer("occupancy") != 0;
     options.correlation = arguments.given("correlation");
     options.keep_masks = arguments.given("keep-masks");
     options.lod = lod_method_from(arguments);

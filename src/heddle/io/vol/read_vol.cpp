@@ -4,6 +4,7 @@
 #include <heddle/base/parallel.h>
 #include <heddle/base/trig.h>
 #include <heddle/io/vol/vol_medium.h>
+#include <heddle/voxel/occupancy.h>
 
 #include <algorithm>
 #include <cmath>
@@ -41,6 +42,7 @@ public:
         info_.name = layout.name;
         info_.lattice = {layout.pitch, VolMedium::kSubvoxels};
         info_.max_lobes = options.max_lobes;
+        info_.fields.occupancy = options.occupancy;
         info_.command = options.command;
         Material material;
         material.name = layout.name;
@@ -168,6 +170,7 @@ BlockCounts VolSource::append_leaf(const BlockSamples& samples,
             out.coverage.push_back(c);
             out.lobe_count.push_back(1);
             out.lobes.push_back({VolMedium::lobe(tangent), 255, 0});
+            if (info_.fields.occupancy) out.occupancy.push_back(kAllCells);
             ++counts.voxels;
             counts.isotropic += tangent == Vec3f{} ? 1 : 0;
         }

@@ -16,6 +16,7 @@ struct VolOptions {
                                     ///< 0: default_density_scale
     Vec3f albedo{0.8f, 0.8f, 0.8f}; ///< linear RGB in [0, 1] of the one fiber material
     std::int32_t max_lobes = 3;     ///< K, for levels that are built from it
+    bool occupancy = true;          ///< the voxels have VoxelFields::occupancy, with all cells set
     std::string command{};          ///< stored in the result
 };
 

@@ -60,6 +60,7 @@ VoxelizeOptions voxelizer_options(const VoxelizeJobOptions& o, bool curves_alone
     options.coverage = o.coverage;
     options.fit = o.fit;
     options.footprints = o.footprints.value_or(footprints);
+    options.occupancy = o.occupancy;
     options.correlation = o.correlation;
     options.samples = o.samples;
     options.keep_sums = o.keep_masks;

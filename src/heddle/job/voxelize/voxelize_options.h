@@ -38,6 +38,7 @@ struct VoxelizeJobOptions {
     std::optional<std::int32_t>
         footprints{};         ///< stored cells per axis: 0, 4 or 8; none: 4 for yarn
                               ///< and hair, else 0
+    bool occupancy = true;    ///< stores which of 4 x 4 x 4 cells of a voxel contain geometry
     bool correlation = false; ///< stores how much the occlusion of neighbours overlaps
     bool keep_masks = false;  ///< stores columns and sums, so that levels can be rebuilt exactly
     LodMethod lod = LodMethod::Moments;

@@ -65,6 +65,7 @@ VoxelLevels make_levels(const VolJobOptions& options, VolReport& report, StageCl
                                 {.density_scale = options.density_scale.value_or(0.0),
                                  .albedo = options.albedo,
                                  .max_lobes = options.lobes,
+                                 .occupancy = options.occupancy,
                                  .command = options.command},
                                 clock);
     clock.finish();

@@ -19,6 +19,7 @@ struct VolJobOptions {
                                            ///< density 1 covers 86 % of a voxel's face
     Vec3f albedo{0.8f, 0.8f, 0.8f};        ///< of the fibers, linear RGB in [0, 1]
     std::int32_t lobes = 3;                ///< most per voxel, 1 to 8
+    bool occupancy = true;                 ///< stores for each voxel that any cell may be occupied
     LodMethod lod = LodMethod::Moments;
     std::optional<int> levels{}; ///< most levels above the finest; none: all
     std::uint64_t seed = 0;
