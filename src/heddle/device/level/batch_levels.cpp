@@ -13,10 +13,12 @@ struct LevelCounts {
     std::int64_t lobes = 0;
 };
 
-std::int64_t array_bytes(int level, const LevelCounts& count, bool maps) {
+std::int64_t array_bytes(int level, const LevelCounts& count, const BatchOptions& options) {
+    const bool maps = options.with_maps();
+    const std::int64_t cells = options.level0.fields.occupancy ? 8 : 0;
     const std::int64_t words = std::int64_t{1} << (2 * level);
     const std::size_t per_lobe = sizeof(DirectionSums) + (maps ? sizeof(MapSums) : 0);
-    return count.voxels * (8 + 3 * 4 + 24 * words) + 4 +
+    return count.voxels * (8 + 3 * 4 + 24 * words + cells) + 4 +
            count.lobes * static_cast<std::int64_t>(per_lobe);
 }
 
@@ -53,6 +55,7 @@ std::unique_ptr<UpperVoxel> TopLevel::take(std::size_t slot) const {
     auto out = std::make_unique<UpperVoxel>();
     out->voxel.hits = hits[v];
     out->voxel.order = order[v];
+    if (occupancy.size() > 0) out->voxel.cells = occupancy[v];
     out->voxel.lobe_count = static_cast<std::uint8_t>(end - begin);
     out->lobes.assign(lobes.data() + begin, lobes.data() + end);
     if (maps.size() > 0) out->maps.assign(maps.data() + begin, maps.data() + end);
@@ -77,17 +80,18 @@ std::int64_t predict_level_bytes(std::int64_t blocks,
                                  std::int64_t voxels,
                                  std::int64_t lobes,
                                  const BatchOptions& options) {
-    const bool maps = options.with_maps();
     LevelCounts below{voxels, lobes};
-    std::int64_t most = array_bytes(0, below, maps) + store_bytes(blocks, 0, below, options.level0);
+    std::int64_t most =
+        array_bytes(0, below, options) + store_bytes(blocks, 0, below, options.level0);
     for (int level = 1; level <= options.levels; ++level) {
         const std::int64_t cells = blocks * (std::int64_t{kVoxelsPerBlock} >> (3 * level));
         LevelCounts here;
         here.voxels = std::min(below.voxels, cells);
         here.lobes = std::min(below.lobes, here.voxels * options.above.max_lobes);
-        const std::int64_t own = array_bytes(level, here, maps);
-        most = std::max({most, array_bytes(level - 1, below, maps) + own + join_bytes(below, here),
-                         own + store_bytes(blocks, level, here, options.above)});
+        const std::int64_t own = array_bytes(level, here, options);
+        most =
+            std::max({most, array_bytes(level - 1, below, options) + own + join_bytes(below, here),
+                      own + store_bytes(blocks, level, here, options.above)});
         below = here;
     }
     return most;

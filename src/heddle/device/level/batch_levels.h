@@ -27,6 +27,7 @@ struct TopLevel {
     HostBuffer<std::uint64_t> key; ///< slot of the block
     HostBuffer<std::uint32_t> hits, first_lobe, order;
     HostBuffer<std::uint64_t> columns;
+    HostBuffer<std::uint64_t> occupancy; ///< empty without fields.occupancy
     HostBuffer<DirectionSums> lobes;
     HostBuffer<MapSums> maps;
 

@@ -64,7 +64,7 @@ std::vector<KeyedVoxel> places_of(const VoxelBlock& block, Vec3i index) {
 LevelArrays
 arrays_of(executor::HostExecutor& exec, const Finest& finest, std::size_t begin, std::size_t end) {
     const int n = finest.source->info().lattice.subvoxels;
-    std::vector<std::uint64_t> key, columns;
+    std::vector<std::uint64_t> key, columns, occupancy;
     std::vector<std::uint32_t> hits, order;
     std::vector<std::uint32_t> first_lobe{0};
     std::vector<DirectionSums> lobes;
@@ -76,6 +76,7 @@ arrays_of(executor::HostExecutor& exec, const Finest& finest, std::size_t begin,
             hits.push_back((block.coverage[at.voxel].occupancy * unsigned(n * n * n) + 32767) /
                            65535);
             order.push_back(block.merge_order.empty() ? 0 : block.merge_order[at.voxel]);
+            if (!block.occupancy.empty()) occupancy.push_back(block.occupancy[at.voxel]);
             const auto& words = block.columns[at.voxel];
             columns.insert(columns.end(), words.begin(), words.end());
             for (std::size_t l = at.lobe; l < at.lobe + block.lobe_count[at.voxel]; ++l) {
@@ -98,6 +99,7 @@ arrays_of(executor::HostExecutor& exec, const Finest& finest, std::size_t begin,
     out.first_lobe = exec.make_from(std::span<const std::uint32_t>(first_lobe));
     out.order = exec.make_from(std::span<const std::uint32_t>(order));
     out.columns = exec.make_from(std::span<const std::uint64_t>(columns));
+    out.occupancy = exec.make_from(std::span<const std::uint64_t>(occupancy));
     out.lobes = exec.make_from(std::span<const DirectionSums>(lobes));
     out.maps = exec.make_from(std::span<const MapSums>(maps));
     return out;
@@ -194,6 +196,12 @@ TEST(BatchLevels, OfYarnAndHairAreTheLevelBuilders) {
     options.footprints = 4;
     expect_parity(hairy_swatch(), options, 1);
     expect_parity(swatch(), options, 8);
+}
+
+TEST(BatchLevels, WithoutOccupancyAreTheLevelBuilders) {
+    VoxelizeOptions options = voxels(100);
+    options.occupancy = false;
+    expect_parity(swatch(), options, 3);
 }
 
 TEST(BatchLevels, OfManyBatchesAreTheLevelBuilders) {

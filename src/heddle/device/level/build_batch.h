@@ -30,6 +30,7 @@ void build_batch_levels(Exec& exec,
     detail::download_array(exec, std::move(level.first_lobe), out.top.first_lobe);
     detail::download_array(exec, std::move(level.order), out.top.order);
     detail::download_array(exec, std::move(level.columns), out.top.columns);
+    detail::download_array(exec, std::move(level.occupancy), out.top.occupancy);
     detail::download_array(exec, std::move(level.lobes), out.top.lobes);
     detail::download_array(exec, std::move(level.maps), out.top.maps);
 }

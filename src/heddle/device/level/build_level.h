@@ -38,6 +38,12 @@ template <typename Exec>
                                 out.level, out.columns.data()});
     below.columns.reset();
     below.key.reset();
+    if (below.occupancy.data() != nullptr) {
+        out.occupancy = exec.template make<std::uint64_t>(count);
+        exec.for_each(count, JoinOccupancyOp{first_child.data(), child_mask.data(),
+                                             below.occupancy.data(), out.occupancy.data()});
+        below.occupancy.reset();
+    }
 
     out.hits = exec.template make<std::uint32_t>(count);
     out.order = exec.template make<std::uint32_t>(count);

@@ -3,6 +3,7 @@
 #include <heddle/base/bits.h>
 #include <heddle/lod/open_level.h>
 #include <heddle/voxel/lobe_pool.h>
+#include <heddle/voxel/occupancy.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -76,6 +77,24 @@ struct MergeChildrenOp {
                     maps == nullptr ? nullptr : maps + lobe};
         order[p] = reduce(row, max_lobes, ByMoments{}, kSameLobe);
         count[p] = static_cast<std::uint8_t>(row.count);
+    }
+};
+
+/// Joins the cells of each parent's children.
+struct JoinOccupancyOp {
+    const std::uint32_t* first_child;
+    const std::uint8_t* child_mask;
+    const std::uint64_t* below; ///< per child
+    std::uint64_t* occupancy;
+
+    HEDDLE_HD void operator()(std::size_t p) const {
+        std::uint32_t child = first_child[p];
+        std::uint64_t joined = 0;
+        for (int octant = 0; octant < 8; ++octant) {
+            if ((child_mask[p] >> octant & 1) == 0) continue;
+            joined |= cells_in_parent(below[child++], octant);
+        }
+        occupancy[p] = joined;
     }
 };
 

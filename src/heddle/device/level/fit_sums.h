@@ -58,12 +58,14 @@ template <typename Exec>
     out.first_lobe = exec.template make<std::uint32_t>(n + 1);
     out.order = exec.template make<std::uint32_t>(n);
     out.columns = exec.template make<std::uint64_t>(3 * n);
+    out.occupancy = exec.template make<std::uint64_t>(options.fields.occupancy ? n : 0);
     out.lobes = exec.template make<DirectionSums>(out.lobe_count);
     if (sums.maps != nullptr) out.maps = exec.template make<MapSums>(out.lobe_count);
-    exec.for_each(cells + 1, FitVoxelOp{sums, options, cells, static_cast<std::uint32_t>(n),
-                                        first_voxel.data(), first_lobe.data(), out.key.data(),
-                                        out.hits.data(), out.first_lobe.data(), out.order.data(),
-                                        out.columns.data(), out.lobes.data(), out.maps.data()});
+    exec.for_each(cells + 1,
+                  FitVoxelOp{sums, options, cells, static_cast<std::uint32_t>(n),
+                             first_voxel.data(), first_lobe.data(), out.key.data(), out.hits.data(),
+                             out.first_lobe.data(), out.order.data(), out.columns.data(),
+                             out.occupancy.data(), out.lobes.data(), out.maps.data()});
     if (merging) merge_lobes(exec, options.max_lobes, out);
     return out;
 }

@@ -5,6 +5,7 @@
 #include <heddle/device/level/dense_sums.h>
 #include <heddle/device/level/level_arrays.h>
 #include <heddle/voxel/lobe_pool.h>
+#include <heddle/voxel/occupancy.h>
 #include <heddle/voxelize/block/fit_options.h>
 
 #include <cstddef>
@@ -65,6 +66,7 @@ struct FitVoxelOp {
     std::uint32_t* lobe_begin;
     std::uint32_t* order;
     std::uint64_t* columns;
+    std::uint64_t* occupancy; ///< null: not stored
     DirectionSums* lobes;
     MapSums* maps; ///< null without
 
@@ -84,6 +86,9 @@ struct FitVoxelOp {
         int count = 0;
         for (int w = 0; w < 8; ++w) count += count_bits(masks[DenseLobe::kSubvoxels + w]);
         hits[v] = static_cast<std::uint32_t>(count);
+        if (occupancy != nullptr) {
+            occupancy[v] = cells_of_subvoxels(masks + DenseLobe::kSubvoxels, options.subvoxels);
+        }
         lobe_begin[v] = first_lobe[i];
         order[v] = 0;
         write_lobes(sums.blocks[place.slot], cell, first_lobe[i]);

@@ -21,6 +21,7 @@ struct LevelArrays {
     executor::Array<std::uint32_t> hits;       ///< per voxel: occupied subvoxels, at most 2^24
     executor::Array<std::uint32_t> first_lobe; ///< per voxel, and the end
     executor::Array<std::uint32_t> order;      ///< per voxel: VoxelBlock::merge_order
+    executor::Array<std::uint64_t> occupancy;  ///< per voxel; with fields.occupancy only
     /// 3 x 4^level words per voxel, axis by axis, as in OpenLevel
     executor::Array<std::uint64_t> columns;
     executor::Array<DirectionSums> lobes;

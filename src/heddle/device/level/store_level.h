@@ -68,6 +68,18 @@ void store_faces(Exec& exec, const LevelArrays& level, const StoredOrder& order,
 }
 
 template <typename Exec>
+void store_occupancy(Exec& exec,
+                     const LevelArrays& level,
+                     const StoredOrder& order,
+                     StoredLevel& out) {
+    const std::size_t n = out.options.fields.occupancy ? level.voxel_count : 0;
+    auto occupancy = exec.template make<std::uint64_t>(n);
+    exec.for_each(
+        n, StoreOccupancyOp{order.voxel_at.data(), level.occupancy.data(), occupancy.data()});
+    download_array(exec, std::move(occupancy), out.occupancy);
+}
+
+template <typename Exec>
 void store_lobes(Exec& exec, const LevelArrays& level, const StoredOrder& order, StoredLevel& out) {
     const VoxelFields& fields = out.options.fields;
     const std::size_t n = level.voxel_count;
@@ -119,6 +131,7 @@ void store_level_arrays(Exec& exec,
     out.options = options;
     const detail::StoredOrder order = detail::order_voxels(exec, level, blocks, out);
     detail::store_faces(exec, level, order, out);
+    detail::store_occupancy(exec, level, order, out);
     detail::store_lobes(exec, level, order, out);
     detail::store_sums(exec, level, order, out);
 }

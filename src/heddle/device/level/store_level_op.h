@@ -133,6 +133,15 @@ struct StoreFaceOp {
     }
 };
 
+/// Writes the occupancy of a stored voxel.
+struct StoreOccupancyOp {
+    const std::uint32_t* voxel_at;
+    const std::uint64_t* from; ///< per voxel
+    std::uint64_t* occupancy;
+
+    HEDDLE_HD void operator()(std::size_t rank) const { occupancy[rank] = from[voxel_at[rank]]; }
+};
+
 /// Writes the lobes of a stored voxel: S is fitted and packed.
 struct StoreLobesOp {
     const std::uint32_t* voxel_at;

@@ -70,6 +70,7 @@ void StoredLevel::cut(std::size_t slot, Vec3i index, VoxelBlock& out) const {
     cut_range(maps, lobe, lobe_end, out.maps);
     cut_range(tangents, lobe, lobe_end, out.tangents);
     cut_triples(footprint, voxel, voxel_end, out.footprints);
+    cut_range(occupancy, voxel, voxel_end, out.occupancy);
     cut_triples(columns, voxel, voxel_end, out.columns);
     cut_range(moments, lobe, lobe_end, out.moments);
     cut_range(map_sums, lobe, lobe_end, out.map_sums);

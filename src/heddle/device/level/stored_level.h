@@ -23,6 +23,7 @@ struct StoredLevel {
     HostBuffer<LobeMaps> maps;           ///< per lobe; empty unless fields.maps()
     HostBuffer<PackedSggx> tangents;     ///< per lobe; empty unless fields.tangents
     HostBuffer<std::uint64_t> footprint; ///< 3 per voxel; with fields.footprints
+    HostBuffer<std::uint64_t> occupancy; ///< per voxel; with fields.occupancy
     HostBuffer<std::uint64_t> columns;   ///< 3 per voxel; with fields.masks, level 0 only
     HostBuffer<LobeMoment> moments;      ///< per lobe; with fields.masks
     HostBuffer<MapSums> map_sums;        ///< per lobe; with fields.masks and map sums
