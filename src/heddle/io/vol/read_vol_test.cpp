@@ -110,6 +110,11 @@ TEST(ReadVol, BlocksAndOneGridGiveTheSameVoxels) {
     EXPECT_EQ(voxels, voxels_of(*read_path(both.list).grid));
 }
 
+TEST(ReadVol, OccupancyCanBeLeftOut) {
+    const Both both;
+    EXPECT_FALSE(voxels_of(*read_path(both.whole, {.occupancy = false}).grid).empty());
+}
+
 TEST(ReadVol, AnyThreadCountGivesTheSameVoxels) {
     const Both both;
     set_thread_count(1);

@@ -102,6 +102,8 @@ inline TestVoxels voxels_of(const VoxelLevel& source) {
         }
         EXPECT_EQ(block.coverage.size(), v);
         EXPECT_EQ(block.lobes.size(), v);
+        const std::size_t with_cells = source.info().fields.occupancy ? v : 0;
+        EXPECT_EQ(block.occupancy, std::vector<std::uint64_t>(with_cells, ~std::uint64_t{0}));
     }
     EXPECT_EQ(source.info().voxel_count, static_cast<std::int64_t>(out.size()));
     EXPECT_EQ(source.info().lobe_count, static_cast<std::int64_t>(out.size()));
