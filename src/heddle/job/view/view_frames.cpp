@@ -1,6 +1,7 @@
 #include <heddle/job/view/view_frames.h>
 
 #include <heddle/io/file/input_file.h>
+#include <heddle/io/file/output_file.h>
 #include <heddle/io/image/image.h>
 #include <heddle/io/vdb/read_vdb.h>
 #include <heddle/job/option_error.h>
@@ -135,12 +136,7 @@ FramesReport draw_frames_to_files(const viewer::ViewedObject& subject,
 }
 
 void make_folder(const std::string& folder) {
-    std::error_code failed;
-    std::filesystem::create_directories(folder, failed);
-    if (!std::filesystem::is_directory(folder, failed)) {
-        throw Error(ErrorCode::CannotWrite, "cannot create this folder", "write to another path",
-                    {.path = folder});
-    }
+    heddle::make_folder(folder);
 }
 
 } // namespace heddle::job
