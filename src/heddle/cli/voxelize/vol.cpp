@@ -79,7 +79,7 @@ void voxelize_vol(const Arguments& arguments, Report& report, ProgressBar& bar) 
     report.text("output", output);
     report_levels(report, done.counts);
     report.bytes("file size", done.file_bytes);
-    report_stages(report, done.stages);
+    report_phases(report, done.phases);
     report_cost(report, done.seconds, done.peak_bytes);
 }
 

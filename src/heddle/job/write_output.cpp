@@ -1,4 +1,4 @@
-#include <heddle/job/output_place.h>
+#include <heddle/job/write_output.h>
 
 #include <heddle/base/error.h>
 #include <heddle/io/file/input_file.h>
