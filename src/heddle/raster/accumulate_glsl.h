@@ -63,11 +63,11 @@ float signed_depth(float t) {
 }
 
 // Goes on until the sign of d is no longer `side`; t is then where it changes, or `end`.
-void advance(inout March m, float side, float end, float speed, float least) {
+void advance(inout March m, float side, float end, float speed, float min_step) {
     for (int i = 0; i < 1024; ++i) {
         m.last_d = m.d;
         m.last_t = m.t;
-        m.t += max(abs(m.d) / speed, least);
+        m.t += max(abs(m.d) / speed, min_step);
         if (m.t >= end) {
             m.t = end;
             return;
@@ -88,16 +88,16 @@ void draw_pixel(ivec2 pixel) {
     float lean = along[axis];
     float speed = sqrt(max(1.0 - lean * lean, 0.0)) +
                   abs(tangent_a.w) / max(chord, 1e-6) * sizes.z * abs(lean) + bend + 0.02;
-    float least = clamp(0.25 * sizes.y * place_a.w, 0.02, 0.5);
+    float min_step = clamp(0.25 * sizes.y * center_a.w, 0.02, 0.5);
     March m = March(range.x, 0.0, 0.0, range.x);
     m.d = signed_depth(m.t);
     // a run an iteration: where many rays go side by side, they wait for each other at its end
     // alone
     for (int run = 0; run < 1024 && m.t < range.y; ++run) {
-        if (m.d > 0.0) advance(m, 1.0, range.y, speed, least);
+        if (m.d > 0.0) advance(m, 1.0, range.y, speed, min_step);
         if (m.t >= range.y) break;
         float from = m.t;
-        advance(m, -1.0, range.y, speed, least);
+        advance(m, -1.0, range.y, speed, min_step);
         add_run(pixel, from, m.t);
     }
 }

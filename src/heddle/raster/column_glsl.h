@@ -4,12 +4,12 @@
 
 namespace heddle::raster {
 
-/// GLSL, all stages: the slab seen along `axis`, as a rectangle that contains it. Needs
-/// kStretchGlsl, in fragment shaders kSlabGlsl.
+/// GLSL, all stages: the segment seen along `axis`, as a rectangle that contains it. Needs
+/// kSegmentGlsl, in fragment shaders kSegmentRayGlsl.
 inline constexpr std::string_view kRectangleGlsl = R"(
 uniform int axis;
-uniform ivec3 view_lo; // subvoxels
-uniform ivec3 view_size;
+uniform ivec3 window_lo; // subvoxels
+uniform ivec3 window_size;
 
 vec2 across(vec3 v) { return axis == 0 ? v.yz : axis == 1 ? v.xz : v.xy; }
 ivec2 across(ivec3 v) { return axis == 0 ? v.yz : axis == 1 ? v.xz : v.xy; }
@@ -21,8 +21,8 @@ struct Rectangle { vec2 middle, way, size; }; // units; size: half, along the wa
 const float kDrawnPad = 0.5; // longest edges of a subvoxel
 const float kFoundPad = 0.625;
 
-Rectangle rectangle_of_slab(float pad) {
-    vec3 d = place_b.xyz - place_a.xyz;
+Rectangle rectangle_of_segment(float pad) {
+    vec3 d = center_b.xyz - center_a.xyz;
     float n = length(d);
     vec3 unit = n > 0.0 ? d / n : tangent_a.xyz;
     float bent = length(tangent_b.xyz - tangent_a.xyz);
@@ -30,7 +30,7 @@ Rectangle rectangle_of_slab(float pad) {
     vec2 t = across(unit);
     float tilt = length(t);
     Rectangle r;
-    r.middle = across(0.5 * (place_a.xyz + place_b.xyz));
+    r.middle = across(0.5 * (center_a.xyz + center_b.xyz));
     r.way = tilt > 1e-6 ? t / tilt : vec2(1.0, 0.0);
     // a disc seen along the axis is an ellipse with these two axes
     r.size = vec2(sizes.z * abs(unit[axis]) + half_long * tilt, sizes.z + half_long * bent) +
@@ -39,27 +39,29 @@ Rectangle rectangle_of_slab(float pad) {
 }
 )";
 
-/// GLSL, vertex, comes last: a quad that covers the slab's pixels.
+/// GLSL, vertex, comes last: a quad that covers the segment's pixels.
 inline constexpr std::string_view kQuadGlsl = R"(
 void main() {
-    current_slab();
-    Rectangle r = rectangle_of_slab(kFoundPad);
+    current_segment();
+    Rectangle r = rectangle_of_segment(kFoundPad);
     vec2 at = r.middle + corner().x * r.size.x * r.way +
               corner().y * r.size.y * vec2(-r.way.y, r.way.x);
-    vec2 pixel = at / across(edge) - vec2(across(view_lo));
-    gl_Position = vec4(2.0 * pixel / vec2(across(view_size)) - 1.0, 0.0, 1.0);
+    vec2 pixel = at / across(edge) - vec2(across(window_lo));
+    gl_Position = vec4(2.0 * pixel / vec2(across(window_size)) - 1.0, 0.0, 1.0);
 }
 )";
 
 /// GLSL, fragment, comes last: a pixel of the quad.
 inline constexpr std::string_view kFragmentGlsl = R"(
-void main() { draw_pixel(ivec2(floor(gl_FragCoord.xy)) + across(view_lo)); }
+void main() { draw_pixel(ivec2(floor(gl_FragCoord.xy)) + across(window_lo)); }
 )";
 
 /// GLSL, compute, comes last: the same pixels, row by row of the rectangle.
-inline constexpr std::string_view kSlabLoopGlsl = R"(
-layout(std430, binding = 4) buffer Draw { uint corners, listed, first, base, groups[3], most; };
-uniform int first_turn; // of kTurns; in the first, `most` becomes the most pixels of a slab
+inline constexpr std::string_view kSegmentLoopGlsl = R"(
+layout(std430, binding = 4) buffer Draw {
+    uint corners, listed, first, base, groups[3], max_pixels;
+};
+uniform int first_turn; // of kTurns; the first sets `max_pixels` to those of the largest segment
 
 // Pixels of an invocation in one dispatch: software drivers end a shader's loops after 65535 turns,
 // all of them counted together, without a word.
@@ -74,33 +76,33 @@ float left_end(Rectangle r, float y) {
 }
 
 void main() {
-    uint rank = item() / kSlabLanes;
+    uint rank = item() / kSegmentLanes;
     if (rank >= listed) return;
-    load_slab(list[rank]);
-    Rectangle r = rectangle_of_slab(kFoundPad);
+    load_segment(list[rank]);
+    Rectangle r = rectangle_of_segment(kFoundPad);
     vec2 px = across(edge);
-    ivec2 view_end = across(view_lo + view_size);
+    ivec2 window_end = across(window_lo + window_size);
     vec2 e = abs(r.way);
     float high = e.y * r.size.x + e.x * r.size.y;
-    int first = max(int(floor((r.middle.y - high) / px.y - 0.5)), across(view_lo).y);
-    int end = min(int(ceil((r.middle.y + high) / px.y + 0.5)), view_end.y);
+    int first = max(int(floor((r.middle.y - high) / px.y - 0.5)), across(window_lo).y);
+    int end = min(int(ceil((r.middle.y + high) / px.y + 0.5)), window_end.y);
     float wide = min(r.size.x / max(e.x, 1e-6), r.size.y / max(e.y, 1e-6));
     int width = int(2.0 * wide / px.x) + 2;
     int total = max(end - first, 0) * width;
-    if (first_turn == 0) atomicMax(most, uint(total));
+    if (first_turn == 0) atomicMax(max_pixels, uint(total));
     for (int turn = first_turn; turn < first_turn + kTurns; ++turn) {
-        int i = turn * int(kSlabLanes) + int(item() % kSlabLanes);
+        int i = turn * int(kSegmentLanes) + int(item() % kSegmentLanes);
         if (i >= total) break;
         int y = first + i / width;
         float left = r.middle.x + left_end(r, (float(y) + 0.5) * px.y - r.middle.y);
         int x = int(floor(left / px.x - 0.5)) + i % width;
-        if (x >= across(view_lo).x && x < view_end.x) draw_pixel(ivec2(x, y));
+        if (x >= across(window_lo).x && x < window_end.x) draw_pixel(ivec2(x, y));
     }
 }
 )";
 
-/// GLSL, fragment and compute: columns of subvoxels and the sums of voxels. Needs kSlabGlsl and
-/// kRectangleGlsl.
+/// GLSL, fragment and compute: columns of subvoxels and the sums of voxels. Needs kSegmentRayGlsl
+/// and kRectangleGlsl.
 inline constexpr std::string_view kColumnGlsl = R"(
 layout(std430, binding = 1) readonly buffer Slots { uint slot_of[]; };
 layout(std430, binding = 3) buffer Pool { uint pool[]; };
@@ -115,12 +117,12 @@ vec3 lift(ivec2 pixel) {
 
 // Starts the ray through a column's centre; its part between the two slices.
 vec2 start_column(ivec2 pixel) {
-    Rectangle r = rectangle_of_slab(kDrawnPad);
+    Rectangle r = rectangle_of_segment(kDrawnPad);
     vec2 from = across(lift(pixel)) - r.middle;
     vec2 off = abs(vec2(dot(from, r.way), dot(from, vec2(-r.way.y, r.way.x))));
     if (any(greaterThan(off, r.size))) return vec2(0.0);
     start(lift(pixel), unit_axis());
-    vec2 range = range_of_slab();
+    vec2 range = range_of_segment();
     // not cut to the region: where steps start would show in its voxels
     float deep = edge[axis] * float(subvoxels);
     if (range.y <= float(voxel_lo[axis]) * deep || range.x >= float(voxel_hi[axis]) * deep) {

@@ -2,7 +2,7 @@
 
 #include <heddle/cli/terminal/report.h>
 #include <heddle/job/levels.h>
-#include <heddle/job/stage_clock.h>
+#include <heddle/job/phase_clock.h>
 #include <heddle/job/voxelize/voxelize_vol.h>
 
 #include <string>
@@ -24,8 +24,8 @@ void report_vol(Report& report, const VolLayout& layout);
 
 void report_notes(Report& report, const std::vector<std::string>& notes);
 
-/// A row a stage.
-void report_stages(Report& report, const job::StageTimes& stages);
+/// A row a phase.
+void report_phases(Report& report, const job::PhaseTimes& phases);
 
 /// Rows on the whole time and the memory.
 void report_cost(Report& report, double seconds, std::int64_t peak_bytes);

@@ -12,19 +12,19 @@
 
 namespace heddle::cli {
 
-/// Draws the running stage on stderr, at most ten times a second, with rate and time left.
+/// Draws the running phase on stderr, at most ten times a second, with rate and time left.
 class ProgressBar final : public Progress {
 public:
     /// @param on_note  is handed each note; may be empty
     explicit ProgressBar(bool visible, std::function<void(const std::string&)> on_note = {})
         : visible_(visible), on_note_(std::move(on_note)) {}
 
-    void begin(std::string_view stage, std::string_view unit, std::int64_t total) override;
+    void begin(std::string_view phase, std::string_view unit, std::int64_t total) override;
     void advance(std::int64_t units) override;
-    /// Its name stands before the stages'.
+    /// Its name stands before the phases'.
     void begin_part(std::string_view name) override;
     void note(std::string_view sentence) override;
-    /// Ends the running stage and wipes the line.
+    /// Ends the running phase and wipes the line.
     void finish();
 
 private:
@@ -35,11 +35,11 @@ private:
     bool visible_;
     std::function<void(const std::string&)> on_note_;
     std::string part_; ///< with a space behind it, or empty
-    std::string stage_;
+    std::string phase_;
     std::string unit_;
     std::int64_t total_ = 0;
     std::atomic<std::int64_t> done_{0};
-    std::atomic<std::int64_t> next_draw_ms_{0}; ///< since the stage began
+    std::atomic<std::int64_t> next_draw_ms_{0}; ///< since the phase began
     Clock::time_point start_;
     std::mutex drawing_;
 };

@@ -68,7 +68,7 @@ void report_voxelize(Report& report, const job::VoxelizeReport& done, const std:
                        " summed over all threads, while voxelizing"));
     }
     report.bytes("file size", done.file_bytes);
-    report_stages(report, done.stages);
+    report_phases(report, done.phases);
     report_cost(report, done.seconds, done.peak_bytes);
 }
 
