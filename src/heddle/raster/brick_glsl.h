@@ -60,8 +60,9 @@ void main() {
 }
 )";
 
-/// GLSL, compute: the number of invocations that share a segment of a list. 8 are the fastest: a
-/// vector of the software driver. If a segment has few pixels, most of 32 would have none.
+/// GLSL, compute: the number of invocations that share a segment of a list. 8 are the fastest,
+/// since this is the vector width of the software driver. Of 32, most would have no pixel of a
+/// small segment.
 inline constexpr std::string_view kSegmentLanesGlsl = R"(
 const uint kSegmentLanes = 8u;
 )";
@@ -77,7 +78,7 @@ layout(std430, binding = 3) buffer Draw {
     uint groups_x; uint groups_y; uint groups_z;
 };
 uniform uint slice_count;
-const uint kGroupsAcross = 32768u; // every driver takes 65535 along an axis
+const uint kGroupsAcross = 32768u; // every driver allows 65535 along an axis
 
 void add_to_list(uint number) {
     uint rank = atomicAdd(listed, 1u);

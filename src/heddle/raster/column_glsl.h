@@ -14,10 +14,11 @@ uniform ivec3 window_size;
 vec2 across(vec3 v) { return axis == 0 ? v.yz : axis == 1 ? v.xz : v.xy; }
 ivec2 across(ivec3 v) { return axis == 0 ? v.yz : axis == 1 ? v.xz : v.xy; }
 
-struct Rectangle { vec2 middle, way, size; }; // units; size: half, along the way and square to it
+// units; `size` is half the length along `way` and across it
+struct Rectangle { vec2 middle, way, size; };
 
-// Drawn are the pixels in the rectangle of the first pad. What finds pixels takes the second,
-// larger by more than what it rounds: so every way of finding them draws the same.
+// The pixels in the rectangle with the first pad are drawn. Pixels are found with the second pad,
+// which exceeds the first by more than rounding errors: so quads and loops draw the same pixels.
 const float kDrawnPad = 0.5; // longest edges of a subvoxel
 const float kFoundPad = 0.625;
 
@@ -63,13 +64,14 @@ layout(std430, binding = 4) buffer Draw {
 };
 uniform int first_turn; // of kTurns; the first sets `max_pixels` to those of the largest segment
 
-// Pixels of an invocation in one dispatch: software drivers end a shader's loops after 65535 turns,
-// all of them counted together, without a word.
+// Pixels of an invocation in one dispatch. Software drivers silently end the loops of a shader
+// after 65535 iterations, counted over all loops.
 const int kTurns = 64;
 
 float away_from_zero(float x) { return x < 0.0 ? min(x, -1e-6) : max(x, 1e-6); }
 
-// Where a row `y` from the middle enters the rectangle: the later of two strips that cross.
+// Where a row at the height `y` above the middle enters the rectangle, the intersection of two
+// strips: where it enters the second of them.
 float left_end(Rectangle r, float y) {
     vec2 e = vec2(away_from_zero(r.way.x), away_from_zero(r.way.y));
     return max(-y * e.y / e.x - r.size.x / abs(e.x), y * e.x / e.y - r.size.y / abs(e.y));
@@ -115,7 +117,7 @@ vec3 lift(ivec2 pixel) {
     return (axis == 0 ? vec3(0.0, p) : axis == 1 ? vec3(p.x, 0.0, p.y) : vec3(p, 0.0)) * edge;
 }
 
-// Starts the ray through a column's centre; its part between the two slices.
+// Starts the ray through a column's centre and returns its part between the two slices.
 vec2 start_column(ivec2 pixel) {
     Rectangle r = rectangle_of_segment(kDrawnPad);
     vec2 from = across(lift(pixel)) - r.middle;
@@ -123,7 +125,7 @@ vec2 start_column(ivec2 pixel) {
     if (any(greaterThan(off, r.size))) return vec2(0.0);
     start(lift(pixel), unit_axis());
     vec2 range = range_of_segment();
-    // not cut to the region: where steps start would show in its voxels
+    // not clipped to the region: the voxels would depend on where its steps start
     float deep = edge[axis] * float(subvoxels);
     if (range.y <= float(voxel_lo[axis]) * deep || range.x >= float(voxel_hi[axis]) * deep) {
         range.y = range.x;
@@ -134,7 +136,7 @@ vec2 start_column(ivec2 pixel) {
 const uint kNoVoxel = 0xffffffffu;
 const uint kWords = 32u;
 
-// First word of a voxel's sums, or kNoVoxel.
+// Returns the first word of a voxel's sums, or kNoVoxel.
 uint words_of(ivec3 voxel) {
     if (any(lessThan(voxel, voxel_lo)) || any(greaterThanEqual(voxel, voxel_hi))) return kNoVoxel;
     uint slot = slot_of[brick_number(voxel >> 3)];
@@ -143,9 +145,8 @@ uint words_of(ivec3 voxel) {
     return ((slot - 1u) * 512u + uint((c.x * 8 + c.y) * 8 + c.z)) * kWords;
 }
 
-// Words of a voxel: 0 to 5 columns (or 0 and 1 what a density is made of), 6 to 21 subvoxels, 22 to
-// 26 the moment but zz (the weight is its trace), 27 the weight, 28 to 30 what the colour lacks of
-// white.
+// Words of a voxel: 0 to 5 columns (or in 0 and 1 the sums of a density), 6 to 21 subvoxels, 22 to
+// 26 the moment without zz (the weight is its trace), 27 the weight, 28 to 30 white minus colour.
 void add_direction(uint words, vec3 d, int weight, vec3 color) {
     float w = float(weight);
     atomicAdd(pool[words + 22u], uint(int(round(w * d.x * d.x))));
@@ -160,7 +161,7 @@ void add_direction(uint words, vec3 d, int weight, vec3 color) {
     }
 }
 
-// Directed area of `depth` units of a column inside a fiber: volume x 2 / (pi r).
+// Returns the directed area of `depth` units of a column inside a fiber: volume x 2 / (pi r).
 int weight_of(float depth, float scale) {
     float area = axis == 0 ? edge.y * edge.z : axis == 1 ? edge.x * edge.z : edge.x * edge.y;
     float w = weight_scale * 0.63661977 * area * depth / (sizes.y * scale);

@@ -7,8 +7,8 @@ namespace heddle::raster {
 /// GLSL for `last`, `average` and `max`: the slice's alpha at subvoxels, as one density per voxel.
 inline constexpr std::string_view kComposeGlsl = R"(
 uniform int policy;       // 0 last, 1 average, 2 max
-uniform int pick;         // of `last`: 0 finds which fragment is the last, 1 takes its alpha
-uniform uint first_slice; // of the buffer, over all
+uniform int pick;         // for `last`: pass 0 finds the last fragment, pass 1 stores its alpha
+uniform uint first_slice; // number of the buffer's first slice among all slices
 
 // Fragments of a slice are ordered by their subvoxel.
 uint order_of(ivec3 at) {

@@ -46,7 +46,7 @@ void report_plan(Report& report, const job::VoxelizeReport& done) {
     report.number("chord error", plan.chord_error, "subvoxels");
 }
 
-/// False of a plan alone.
+/// Returns false if there is only a plan.
 bool is_written(const job::VoxelizeReport& done) {
     return done.file_bytes > 0;
 }
