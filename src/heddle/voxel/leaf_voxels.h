@@ -29,6 +29,8 @@ struct BlockVoxel {
     [[nodiscard]] std::array<std::uint8_t, 3> correlation() const {
         return of_voxel(block.correlation);
     }
+    /// {0, 255} if the block does not have the field.
+    [[nodiscard]] PlaneSlab slab() const { return of_voxel(block.slabs); }
     /// Returns its 1 to K lobes, the heaviest first.
     [[nodiscard]] std::span<const Lobe> lobes() const { return of_lobes(block.lobes); }
     /// These return one element per lobe; empty if the block does not have the field.

@@ -26,7 +26,7 @@ private:
     struct BlockRecord {
         std::int64_t offset = 0;
         std::uint32_t leaves = 0;
-        std::array<std::uint32_t, 11> sizes{}; ///< of the vectors of for_each_array()
+        std::array<std::uint32_t, 12> sizes{}; ///< of the vectors of for_each_array()
     };
     TempFile file_;
     std::vector<BlockRecord> records_;

@@ -3,6 +3,7 @@
 #include <heddle/base/vec.h>
 #include <heddle/geom/geometry.h>
 #include <heddle/sggx/packed.h>
+#include <heddle/voxel/plane_slab.h>
 
 #include <array>
 #include <bit>
@@ -82,13 +83,14 @@ struct MapSums {
 static_assert(sizeof(LobeMoment) == 56 && sizeof(MapSums) == 96, "written as they lie");
 
 /// Which of the optional data a grid holds. The first three are absent when no material's maps vary
-/// them, the others unless they were asked for.
+/// them, slabs where no material is a surface, the others unless they were asked for.
 struct VoxelFields {
     bool albedo = false;   ///< LobeMaps::albedo
     bool surface = false;  ///< LobeMaps::roughness, metalness, anisotropy
     bool tangents = false; ///< a second SGGX per lobe: tangents of anisotropic surfaces
     bool masks = false; ///< of level 0: columns and sums, so that levels can be built again exactly
     bool correlation = false;    ///< what neighbouring voxels share
+    bool slabs = false;          ///< PlaneSlab of the first lobe
     std::int32_t footprints = 0; ///< cells per axis of a voxel's face: 4 or 8; 0: none
 
     [[nodiscard]] bool maps() const { return albedo || surface; }      ///< has LobeMaps
@@ -137,6 +139,7 @@ struct VoxelBlock {
                                                           ///< next voxel on each axis, 255 = 1:
                                                           ///< the same columns; with
                                                           ///< fields.correlation
+    std::vector<PlaneSlab> slabs;                         ///< per voxel; with fields.slabs
 
     /// Calls f with each of the vectors but `leaves`.
     template <typename Self, typename F>
@@ -144,6 +147,7 @@ struct VoxelBlock {
         f(block.coverage), f(block.lobe_count), f(block.lobes), f(block.maps), f(block.tangents);
         f(block.merge_order), f(block.columns), f(block.moments), f(block.map_sums);
         f(block.footprints), f(block.correlation);
+        f(block.slabs);
     }
     [[nodiscard]] std::int64_t byte_count() const {
         std::size_t sum = leaves.capacity() * sizeof(VoxelLeaf);
@@ -176,7 +180,8 @@ struct LevelSize {
                                                       std::int64_t lobes,
                                                       const VoxelFields& fields) {
     const std::size_t per_voxel = sizeof(Coverage) + 1 + (fields.masks ? 24 : 0) +
-                                  (fields.footprints != 0 ? 24 : 0) + (fields.correlation ? 3 : 0);
+                                  (fields.footprints != 0 ? 24 : 0) + (fields.correlation ? 3 : 0) +
+                                  (fields.slabs ? sizeof(PlaneSlab) : 0);
     const std::size_t sums = sizeof(LobeMoment) + (fields.map_sums() ? sizeof(MapSums) : 0);
     const std::size_t per_lobe = sizeof(Lobe) + (fields.maps() ? sizeof(LobeMaps) : 0) +
                                  (fields.tangents ? sizeof(PackedSggx) : 0) +
