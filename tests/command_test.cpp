@@ -106,6 +106,7 @@ TEST_F(CommandAndJob, VoxelizeMakesTheVoxelsOfTheJob) {
     chosen.samples = 5;
     chosen.fit = FitMode::Last;
     chosen.footprints = 8;
+    chosen.occupancy = false;
     chosen.correlation = true;
     chosen.keep_masks = true;
     chosen.lod = LodMethod::Random;
@@ -115,8 +116,8 @@ TEST_F(CommandAndJob, VoxelizeMakesTheVoxelsOfTheJob) {
     knit.options = {.yarn = "silk", .yarn_radius = 0.3, .fibers = 12, .fiber_radius = 0.03};
     run("voxelize knit.bcc --yarn silk --yarn-radius 0.3 --fibers 12 --fiber-radius 0.03 "
         "--voxel-size 0.1,0.1,0.2 --bounds -1,-1,-1,2,2,2 --lobes 2 --subvoxels 4 "
-        "--coverage mask --samples 5 --fit last --footprints 8 --correlation --keep-masks "
-        "--lod random --levels 2 --seed 7 --memory 1G -o chosen.vdb");
+        "--coverage mask --samples 5 --fit last --footprints 8 --occupancy 0 --correlation "
+        "--keep-masks --lod random --levels 2 --seed 7 --memory 1G -o chosen.vdb");
     expect_levels("chosen.vdb", voxelize(knit, chosen, silent_).levels);
 }
 
@@ -156,12 +157,13 @@ TEST_F(CommandAndJob, VoxelizeOfAVolumeMakesTheVoxelsOfTheJob) {
     run("voxelize flakes/volume.vol -o plain.vdb");
     expect_levels("plain.vdb", voxelize_vol(path, {}, silent_).levels);
     run("voxelize flakes/volume.vol --density-scale 30 --albedo 0.2,0.5,0.7 --lobes 1 "
-        "--orientation none --lod single --levels 1 --seed 3 -o chosen.vdb");
+        "--orientation none --occupancy 0 --lod single --levels 1 --seed 3 -o chosen.vdb");
     VolJobOptions chosen;
     chosen.orientation = "none";
     chosen.density_scale = 30.0;
     chosen.albedo = {0.2f, 0.5f, 0.7f};
     chosen.lobes = 1;
+    chosen.occupancy = false;
     chosen.lod = LodMethod::Single;
     chosen.levels = 1;
     chosen.seed = 3;

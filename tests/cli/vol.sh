@@ -37,6 +37,7 @@ fails 2 "--albedo applies only to .vol files" voxelize knit.bcc --albedo 0.5 -o 
 works info a-density.vol
 grep -q '^orientation *directions, a-orientation.vol' out.txt ||
     wrong "info of a .vol: $(cat out.txt)"
+works voxelize a-density.vol --lobes 1 --occupancy 0 --levels 1 --lod single --memory 1G -o vol.vdb
 works voxelize a-density.vol -o vol.vdb --json
 [ "$(json voxels)" = 8 ] || wrong "8 samples became $(json voxels) voxels"
 fails 2 "--voxels cannot be used with a .vdb" info vol.vdb --voxels 32

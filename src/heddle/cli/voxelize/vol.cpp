@@ -15,7 +15,7 @@ namespace {
 
 /// Refuses every option of `voxelize` that a volume has no use for.
 void reject_other_rows(const Arguments& arguments) {
-    std::set<std::string> used{"FILE", "output", "dry-run", "lobes", "memory"};
+    std::set<std::string> used{"FILE", "output", "dry-run", "lobes", "occupancy", "memory"};
     for (const std::vector<Option>& rows : {level_rows(), vol_rows()}) {
         for (const Option& row : rows) used.insert(row.key());
     }
