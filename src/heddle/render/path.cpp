@@ -134,27 +134,18 @@ private:
         return largest(hit.radiance) > 0.0f;
     }
 
-    /// Returns Ray::clear of a ray that starts in a volume, which prevents self-shadowing: voxels
-    /// do not know where in them their fibers are, and the path that the ray came was free. Fitted
-    /// to the brightness of traced geometry (docs/transport.md).
-    [[nodiscard]] static float clear_of(const Event& event, Vec3f wi, Vec3f direction) {
-        constexpr float kRadii = 2.0f; // extent of a fiber's self-shadowing, in radii
-        constexpr float kBackEdges =
-            6.0f; // voxel edges back along the incoming ray, about 17 degrees wide
+    /// Returns Ray::clear of a ray that starts on a surface in a volume, which prevents
+    /// self-shadowing: voxels do not know where in them the surface is.
+    [[nodiscard]] static float clear_of(const Event& event, Vec3f direction) {
         constexpr float kMinCosine = 0.25f;
-        if (event.fiber) {
-            const float back = std::max(0.0f, dot(wi, direction));
-            const float way_back = kBackEdges * event.edge * std::pow(back, 16.0f);
-            return std::max(kRadii * event.radius, way_back);
-        }
+        if (event.fiber) return 0.0f;
         const float cosine = std::fabs(dot(direction, event.scatterer.axis));
         return event.edge / std::max(cosine, kMinCosine);
     }
 
-    /// Returns Ray::bulk of a ray from a fiber in a volume: 1 straight on, into the yarn, and 0
-    /// sideways and backwards. Fitted like clear_of.
-    [[nodiscard]] static float bulk_of(const Event& event, Vec3f wi, Vec3f direction) {
-        return event.fiber ? std::max(0.0f, -dot(wi, direction)) : 0.0f;
+    [[nodiscard]] static FiberStart start_of(const Event& event, Vec3f wi, Vec3f direction) {
+        if (!event.fiber) return {};
+        return {event.radius, dot(wi, direction), event.t};
     }
 
     /// Returns a ray that starts at an event, offset from its surface.
@@ -166,8 +157,8 @@ private:
                 kInfinity,
                 width,
                 spread,
-                clear_of(event, wi, direction),
-                bulk_of(event, wi, direction)};
+                clear_of(event, direction),
+                start_of(event, wi, direction)};
     }
 
     [[nodiscard]] Vec3f direct_light(const Event& event, Vec3d at, Vec3f wi, float width) {

@@ -255,8 +255,6 @@ double by_chance(const PathScene& scene, const Ray& ray, StreamRandom& random) {
     const ScatterSample s = sample(at, ray.direction * -1.0f, {a, b, random.uniform()});
     if (!(s.pdf > 0.0f)) return 0.0;
     Ray on = ray_along(ray.at(static_cast<double>(hit.t)), to_double(s.direction));
-    const float back = std::max(0.0f, -dot(ray.direction, s.direction));
-    on.clear = 6.0f * std::pow(back, 16.0f); // as paths have it, for edges of 1
     LightHit light;
     float radiance = 0.0f;
     if (scene.lights.intersect(on, light)) {

@@ -61,6 +61,36 @@ inline std::shared_ptr<const TraversalLevel> level_of(const VoxelMap& voxels,
     return std::make_shared<const TraversalLevel>(grid);
 }
 
+/// Returns a level of fibers with cells.
+/// @param cells        returns the cells of a voxel by its number
+/// @param correlation  of all faces; < 0: none is stored
+template <typename Cells>
+std::shared_ptr<const TraversalLevel> level_with_cells(const VoxelMap& voxels,
+                                                       float fiber_radius,
+                                                       const Cells& cells,
+                                                       int level = 0,
+                                                       double correlation = -1.0) {
+    MemoryLevel grid;
+    grid.info().lattice = lattice_of_level({{1, 1, 1}, 8}, level);
+    grid.info().level = level;
+    grid.info().materials.resize(1);
+    grid.info().materials[0].kind = MaterialKind::Fiber;
+    grid.info().materials[0].fiber_radius = fiber_radius;
+    grid.info().fields.occupancy = true;
+    grid.info().fields.correlation = correlation >= 0.0;
+    grid.blocks = make_blocks(voxels);
+    count_voxels(grid);
+    for (VoxelBlock& block : grid.blocks) {
+        for (std::size_t v = 0; v < block.coverage.size(); ++v) {
+            block.occupancy.push_back(cells(v));
+            if (correlation < 0.0) continue;
+            const auto rho = static_cast<std::uint8_t>(std::lround(255.0 * correlation));
+            block.correlation.push_back({rho, rho, rho});
+        }
+    }
+    return std::make_shared<const TraversalLevel>(grid);
+}
+
 /// Returns a volume of one level.
 inline VolumeInstance volume_of(const VoxelMap& voxels,
                                 const Affine& to_world = {},

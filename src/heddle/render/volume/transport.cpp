@@ -8,8 +8,7 @@
 namespace heddle {
 
 const std::vector<std::string>& transport_names() {
-    static const std::vector<std::string> names{"auto", "product", "threshold", "footprint",
-                                                "flakes"};
+    static const std::vector<std::string> names{"auto", "product", "cells", "flakes"};
     return names;
 }
 

@@ -11,11 +11,9 @@ namespace heddle {
 
 /// How the extinctions of voxels along a ray are combined. docs/transport.md compares the choices.
 enum class Transport : std::uint8_t {
-    Automatic, ///< Footprint for fibers if the file has footprints, else Product
+    Automatic, ///< Cells for fibers if the file has them, else Product
     Product,   ///< independent voxels: optical depths add up          [Fabre26, LopezMoreno17]
-    Threshold, ///< neighbours share a random threshold as far as their faces correlate; Product
-               ///< if the file has no correlation
-    Footprint, ///< by the cells of the faces that a ray crosses; Product without footprints
+    Cells,     ///< by the set ones of a voxel's 4 x 4 x 4 cells; Product if the file has none
     /// a FlakeMedium instead of a VolumeInstance: one SGGX per voxel, interpolated [Heitz15]
     Flakes
 };
@@ -29,12 +27,8 @@ enum class Transport : std::uint8_t {
 
 /// Returns the transport for a level, whose data may not allow the one that is asked for.
 [[nodiscard]] inline Transport resolve(Transport asked, const TraversalLevel& level) {
-    if (asked == Transport::Threshold) {
-        return level.has_correlation() ? asked : Transport::Product;
-    }
-    const bool wants =
-        asked == Transport::Footprint || (asked == Transport::Automatic && level.fibers_only());
-    return wants && level.has_footprints() ? Transport::Footprint : Transport::Product;
+    const bool wants = asked == Transport::Cells || asked == Transport::Automatic;
+    return wants && level.has_cells() ? Transport::Cells : Transport::Product;
 }
 
 /// Combines three optical depths along the axes into one: the root of the sum of squares.
@@ -43,13 +37,6 @@ enum class Transport : std::uint8_t {
 /// would need the sum. Closer to traced geometry than the sum or their mean (docs/transport.md).
 [[nodiscard]] inline float combine_depths(Vec3f depth) {
     return std::sqrt(dot(depth, depth));
-}
-
-/// Returns a voxel's optical depths along the axes.
-[[nodiscard]] inline Vec3f depths_of(const TraversalVoxel& voxel) {
-    return Vec3f{static_cast<float>(voxel.depth[0]), static_cast<float>(voxel.depth[1]),
-                 static_cast<float>(voxel.depth[2])} *
-           kDepthUnit;
 }
 
 } // namespace heddle

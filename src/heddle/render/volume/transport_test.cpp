@@ -1,4 +1,3 @@
-#include <heddle/render/volume/swept_depth.h>
 #include <heddle/render/volume/test_volume.h>
 #include <heddle/render/volume/transport.h>
 
@@ -11,46 +10,23 @@ namespace {
 
 using namespace heddle::testing;
 
-/// Random voxels with footprints of 4 x 4 cells, as many bits as their coverage rounds to, and
-/// random correlation.
-std::shared_ptr<const TraversalLevel> random_level(MaterialKind kind, int level) {
+/// Random voxels of fibers with random cells.
+std::shared_ptr<const TraversalLevel> random_level(int level) {
     VoxelMap voxels;
     StreamRandom random{3};
-    add_random(voxels, random, {-3, -3, -3}, 6, 150, 0.9);
-    MemoryLevel grid;
-    grid.info().lattice = lattice_of_level({{1, 1, 1}, 8}, level);
-    grid.info().level = level;
-    grid.info().materials.resize(1);
-    grid.info().materials[0].kind = kind;
-    grid.info().fields.footprints = 4;
-    grid.info().fields.correlation = true;
-    grid.blocks = make_blocks(voxels);
-    count_voxels(grid);
-    for (VoxelBlock& block : grid.blocks) {
-        for (const Coverage& c : block.coverage) {
-            std::array<std::uint64_t, 3> bits{};
-            for (std::size_t a = 0; a < 3; ++a) {
-                const double share = (a == 0 ? c.x : a == 1 ? c.y : c.z) / 65535.0;
-                while (std::popcount(bits[a]) < std::lround(16.0 * share)) {
-                    bits[a] |= std::uint64_t{1} << (random.next() % 16);
-                }
-            }
-            block.footprints.push_back(bits);
-            const auto byte = [&] { return static_cast<std::uint8_t>(random.next() % 256); };
-            block.correlation.push_back({byte(), byte(), byte()});
-        }
-    }
-    return std::make_shared<const TraversalLevel>(grid);
+    add_random(voxels, random, {-3, -3, -3}, 6, 150, 0.6);
+    return level_with_cells(
+        voxels, 0.02f, [&](std::size_t) { return random.next() | 0x8000100000010001; }, level, 0.4);
 }
 
-VolumeInstance volume_with_extras(MaterialKind kind = MaterialKind::Fiber) {
-    return {{random_level(kind, 0)}, {}, {0}};
+VolumeInstance volume_with_cells() {
+    return {{random_level(0)}, {}, {0}};
 }
 
 const LevelChoice kFinest{0, 0.0f, 0.5f};
 
 void expect_equal_laws(const VolumeInstance& volume, const LevelChoice& choice, const Ray& ray) {
-    for (const Transport t : {Transport::Product, Transport::Threshold, Transport::Footprint}) {
+    for (const Transport t : {Transport::Product, Transport::Cells}) {
         StreamRandom random{11};
         constexpr int kDraws = 20000;
         double passed = 0.0, expected = 0.0;
@@ -66,20 +42,19 @@ void expect_equal_laws(const VolumeInstance& volume, const LevelChoice& choice, 
 }
 
 TEST(Transport, FlightsPassAsOftenAsTransmittanceSays) {
-    const VolumeInstance volume = volume_with_extras();
+    const VolumeInstance volume = volume_with_cells();
     StreamRandom random{11};
     for (int r = 0; r < 6; ++r) {
         const Vec3d from = to_double(random_direction(random)) * (r < 2 ? 1.0 : 8.0);
         Ray ray = ray_along(from, to_double(random_direction(random)) * 2.0 - from);
         ray.t_max = r % 2 == 0 ? 3.0f : 30.0f;
-        ray.bulk = r < 3 ? 0.0f : 0.5f;
+        if (r >= 3) ray.start = {0.02f, 0.9f - 0.4f * static_cast<float>(r - 3), 2.0f};
         expect_equal_laws(volume, kFinest, ray);
     }
 }
 
 TEST(Transport, FlightsPassAsOftenWhereTheLevelChanges) {
-    const VolumeInstance volume{
-        {random_level(MaterialKind::Fiber, 0), random_level(MaterialKind::Fiber, 1)}, {}, {0}};
+    const VolumeInstance volume{{random_level(0), random_level(1)}, {}, {0}};
     StreamRandom random{12};
     for (int r = 0; r < 6; ++r) {
         const Vec3d from = to_double(random_direction(random)) * 6.0;
@@ -91,7 +66,7 @@ TEST(Transport, FlightsPassAsOftenWhereTheLevelChanges) {
 }
 
 TEST(Transport, NothingStopsARayWhereItIsClear) {
-    const VolumeInstance volume = volume_with_extras();
+    const VolumeInstance volume = volume_with_cells();
     StreamRandom random{5};
     Ray ray = ray_along({0, 0, 0}, {1, 2, 3});
     const auto passes = [&] {
@@ -106,94 +81,104 @@ TEST(Transport, NothingStopsARayWhereItIsClear) {
 }
 
 TEST(Transport, DataAndMaterialsChooseTheAutomaticOne) {
-    const auto fibers = volume_with_extras().pyramid().front();
-    const auto surfaces = volume_with_extras(MaterialKind::Surface).pyramid().front();
+    const auto fibers = volume_with_cells().pyramid().front();
     const auto bare = level_of({{{0, 0, 0}, even_voxel(0.5, {{needle({1, 0, 0}), 255, 0}})}});
-    EXPECT_EQ(resolve(Transport::Automatic, *fibers), Transport::Footprint);
-    EXPECT_EQ(resolve(Transport::Automatic, *surfaces), Transport::Product);
-    EXPECT_EQ(resolve(Transport::Footprint, *surfaces), Transport::Footprint);
+    EXPECT_EQ(resolve(Transport::Automatic, *fibers), Transport::Cells);
+    EXPECT_EQ(resolve(Transport::Product, *fibers), Transport::Product);
     EXPECT_EQ(resolve(Transport::Automatic, *bare), Transport::Product);
-    EXPECT_EQ(resolve(Transport::Footprint, *bare), Transport::Product);
-    EXPECT_EQ(resolve(Transport::Threshold, *bare), Transport::Product);
+    EXPECT_EQ(resolve(Transport::Cells, *bare), Transport::Product);
 }
 
 TEST(Transport, NamesAreThoseOfTheEnum) {
     EXPECT_EQ(transport_from(""), Transport::Automatic);
     EXPECT_EQ(transport_from("product"), Transport::Product);
-    EXPECT_EQ(transport_from("threshold"), Transport::Threshold);
-    EXPECT_EQ(transport_from("footprint"), Transport::Footprint);
-    EXPECT_THROW((void)transport_from("footprnt"), Error);
+    EXPECT_EQ(transport_from("cells"), Transport::Cells);
+    EXPECT_EQ(transport_from("flakes"), Transport::Flakes);
+    EXPECT_THROW((void)transport_from("cell"), Error);
 }
 
-TraversalVoxel voxel_of(double coverage) {
-    const auto depth = static_cast<std::uint16_t>(
-        std::lround(-std::log1p(-coverage) / static_cast<double>(kDepthUnit)));
-    return {{depth, depth, depth}, 0};
+/// Returns the mean transmittance of rays along an axis over the face of voxel (0, 0, 0), and from
+/// `from` to `to` on that axis.
+double passes_face(const VolumeInstance& volume, int axis, double from, double to) {
+    StreamRandom random{7};
+    double sum = 0.0;
+    constexpr int kRays = 16; // per axis: 4 in each column of cells
+    for (int i = 0; i < kRays * kRays; ++i) {
+        Vec3d origin{}, direction{};
+        origin[axis] = from;
+        origin[(axis + 1) % 3] = (i % kRays + 0.5) / kRays;
+        origin[(axis + 2) % 3] = (i / kRays + 0.5) / kRays;
+        direction[axis] = 1.0;
+        Ray ray = ray_along(origin, direction);
+        ray.t_max = static_cast<float>(to - from);
+        sum += static_cast<double>(volume.transmittance(ray, Transport::Cells, kFinest, random));
+    }
+    return sum / (kRays * kRays);
 }
 
-double blocked(float depth) {
-    return 1.0 - std::exp(-static_cast<double>(depth));
-}
-
-TEST(DepthsOnWay, ARayAlongAnAxisIsStoppedInSetCellsAlone) {
-    const std::uint64_t along_x = std::uint64_t{1} << (4 * 2 + 1);      // y = 1, z = 2
-    const std::uint64_t along_y = std::uint64_t{1} << (16 + 4 * 3 + 0); // z = 0, x = 3
-    const std::uint64_t along_z = std::uint64_t{1} << (32 + 4 * 1 + 2); // x = 2, y = 1
-    const std::uint64_t bits = along_x | along_y | along_z;
-    const TraversalVoxel voxel = voxel_of(1.0 / 16.0);
-    const auto cell = [](int i) { return (static_cast<float>(i) + 0.4f) / 4.0f; };
-    for (int a = 0; a < 3; ++a) {
-        for (int u = 0; u < 4; ++u) {
-            for (int v = 0; v < 4; ++v) {
-                Vec3f in{}, out{};
-                in[(a + 1) % 3] = out[(a + 1) % 3] = cell(u);
-                in[(a + 2) % 3] = out[(a + 2) % 3] = cell(v);
-                out[a] = 1.0f;
-                const bool set = a == 0   ? u == 1 && v == 2
-                                 : a == 1 ? u == 0 && v == 3
-                                          : u == 2 && v == 1;
-                const Vec3f depth = depths_along_path(voxel, bits, 0.0f, 0.0f, in, out);
-                EXPECT_NEAR(blocked(depth[a]), set ? 0.99 : 0.0, 0.005);
-                EXPECT_EQ(depth[(a + 1) % 3], 0.0f);
-            }
-        }
+TEST(CellLaw, RaysAlongAnAxisMeetTheCoverage) {
+    StreamRandom random{13};
+    const std::vector<Lobe> lobes{{needle({1, 0, 0}), 255, 0}};
+    for (int i = 0; i < 10; ++i) {
+        VoxelMap voxels;
+        voxels[{0, 0, 0}] = {{share16(0.1 + 0.05 * i), share16(0.5), share16(0.3), 0}, lobes};
+        const std::uint64_t cells = random.next() | random.next();
+        const VolumeInstance volume{
+            {level_with_cells(voxels, 0.01f, [&](std::size_t) { return cells; })}, {}, {0}};
+        EXPECT_NEAR(passes_face(volume, 0, -1.0, 2.0), 0.9 - 0.05 * i, 4e-3);
+        EXPECT_NEAR(passes_face(volume, 1, -1.0, 2.0), 0.5, 4e-3);
+        EXPECT_NEAR(passes_face(volume, 2, -1.0, 2.0), 0.7, 4e-3);
     }
 }
 
-/// Blocked fraction of a path along z through a part of a uniform voxel.
-double blocked_of(double coverage, float part, float many, float bulk) {
-    const Vec3f in{0.3f, 0.3f, 0.0f}, out{0.3f, 0.3f, part};
-    return blocked(depths_along_path(voxel_of(coverage), 0, many, bulk, in, out).z);
-}
-
-TEST(DepthsOnWay, AColumnIsBlockedAtOnePlaceInIt) {
-    for (const float part : {0.1f, 0.5f, 1.0f}) {
-        EXPECT_NEAR(blocked_of(0.8, part, 0.0f, 0.0f), 0.8 * static_cast<double>(part), 1e-3);
+TEST(CellLaw, ARowOfTwoVoxelsCoversWhatBothCover) {
+    for (const double correlation : {0.0, 0.5, 1.0}) {
+        VoxelMap voxels;
+        const std::vector<Lobe> lobes{{needle({1, 0, 0}), 255, 0}};
+        voxels[{0, 0, 0}] = even_voxel(0.4, lobes);
+        voxels[{1, 0, 0}] = even_voxel(0.6, lobes);
+        const VolumeInstance volume{
+            {level_with_cells(
+                voxels, 0.01f, [](std::size_t) { return ~std::uint64_t{0}; }, 0, correlation)},
+            {},
+            {0}};
+        const double independent = 0.4 + 0.6 - 0.4 * 0.6;
+        const double both = independent - correlation * (independent - 0.6);
+        EXPECT_NEAR(passes_face(volume, 0, -1.0, 3.0), 1.0 - both, 8e-3) << correlation;
+        EXPECT_NEAR(passes_face(volume, 1, -1.0, 3.0), 0.6, 4e-3); // alone on this axis
     }
 }
 
-TEST(DepthsOnWay, OfManyFibersBehindEachOtherDepthsAddUp) {
-    for (const float part : {0.1f, 0.5f, 1.0f}) {
-        const double dust = 1.0 - std::pow(0.2, static_cast<double>(part));
-        EXPECT_NEAR(blocked_of(0.8, part, 1.0f, 0.0f), dust, 1e-3);
-    }
-    EXPECT_GT(blocked_of(0.8, 0.5f, 0.3f, 0.0f), 0.4 + 0.02);
-    EXPECT_NEAR(blocked_of(0.8, 1.0f, 0.3f, 0.0f), 0.8, 1e-3); // along the axis no difference
-}
-
-TEST(DepthsOnWay, InTheBulkTheyAddUpAndAreLarger) {
-    for (const float part : {0.1f, 0.5f, 1.0f}) {
-        const double bulk = 1.0 - std::pow(0.2, 1.5 * static_cast<double>(part));
-        EXPECT_NEAR(blocked_of(0.8, part, 0.0f, 1.0f), bulk, 1e-3);
-        EXPECT_NEAR(blocked_of(0.8, part, 0.3f, 1.0f), bulk, 1e-3);
+TEST(CellLaw, IsTheSameBackwards) {
+    const VolumeInstance volume = volume_with_cells();
+    StreamRandom random{21};
+    for (int i = 0; i < 50; ++i) {
+        const Vec3d a = to_double(random_direction(random)) * 8.0;
+        const Vec3d b = to_double(random_direction(random)) * 8.0;
+        Ray there = ray_along(a, b - a), back = ray_along(b, a - b);
+        there.t_max = back.t_max = static_cast<float>(length(b - a));
+        const float t = volume.transmittance(there, Transport::Cells, kFinest, random);
+        EXPECT_NEAR(volume.transmittance(back, Transport::Cells, kFinest, random), t, 1e-3f);
     }
 }
 
-TEST(DepthsOnWay, CellsThatRoundingAddedCountLess) {
-    const TraversalVoxel voxel = voxel_of(0.10); // two bits cover 0.125
-    const Vec3f depth =
-        depths_along_path(voxel, 3u << 0, 0.0f, 0.0f, {0, 0.1f, 0.1f}, {1, 0.1f, 0.1f});
-    EXPECT_NEAR(blocked(depth.x), 0.8, 1e-3);
+TEST(CellLaw, FlightsStopInSetCells) {
+    VoxelMap voxels;
+    voxels[{0, 0, 0}] = even_voxel(0.2, {{needle({1, 0, 0}), 255, 0}});
+    const std::uint64_t cells = 0x0000ffff00000000; // the layer x = 2
+    const VolumeInstance volume{
+        {level_with_cells(voxels, 0.01f, [&](std::size_t) { return cells; })}, {}, {0}};
+    StreamRandom random{22};
+    const Ray ray = ray_along({-1.0, 0.4, 0.6}, {1, 0, 0});
+    int hits = 0;
+    for (int i = 0; i < 2000; ++i) {
+        VolumeHit hit;
+        if (!volume.sample_flight(ray, Transport::Cells, kFinest, random, hit)) continue;
+        ++hits;
+        EXPECT_GE(hit.t, 1.5f);
+        EXPECT_LE(hit.t, 1.75f);
+    }
+    EXPECT_NEAR(hits / 2000.0, 0.2, 0.04);
 }
 
 } // namespace

@@ -1,9 +1,10 @@
 #include <heddle/render/volume/traversal_level.h>
 
+#include <heddle/base/parallel.h>
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
+#include <numbers>
 
 namespace heddle {
 namespace {
@@ -22,31 +23,29 @@ std::vector<std::uint16_t> depth_table(const Lattice& lattice) {
     return table;
 }
 
-/// Reduces a footprint of 8 x 8 cells to 4 x 4: keeps the covered fraction, and sets the fullest
-/// cells first.
-std::uint64_t halve_footprint(std::uint64_t bits) {
-    std::array<int, 16> count{};
-    for (; bits != 0; bits &= bits - 1) {
-        const int bit = std::countr_zero(bits);
-        ++count[static_cast<std::size_t>((bit >> 4) * 4 + (bit >> 1 & 3))];
-    }
-    const int total = std::accumulate(count.begin(), count.end(), 0);
-    std::uint64_t out = 0;
-    for (int set = (total + 2) / 4; set > 0; --set) {
-        const auto fullest = std::max_element(count.begin(), count.end());
-        out |= std::uint64_t{1} << (fullest - count.begin());
-        *fullest = -1;
-    }
-    return out;
+float coverage_of(std::uint16_t depth) {
+    return -std::expm1(-kDepthUnit * static_cast<float>(depth));
 }
 
-/// Packs three footprints of n x n cells into 48 bits.
-std::uint64_t pack_footprints(const std::array<std::uint64_t, 3>& from, int n) {
-    std::uint64_t out = 0;
-    for (std::size_t a = 0; a < 3; ++a) {
-        out |= (n == 8 ? halve_footprint(from[a]) : from[a]) << (16 * a);
+/// Returns the volume of a long cylinder as a share of the cubes of a lattice that it touches.
+/// Their section is the cylinder's disc widened by the projection of a cube, which has on average
+/// the area 1.5 and the perimeter 1.5 pi for edges of 1.                       [Steiner, Cauchy]
+double share_of_touched(double radius, double cube) {
+    const double disc = std::numbers::pi * radius * radius;
+    return disc / (disc + 1.5 * std::numbers::pi * radius * cube + 1.5 * cube * cube);
+}
+
+/// Calls f(voxel, index) for the voxels of a leaf. @param origin  of the leaf
+template <typename F>
+void for_each_voxel(const TraversalLeaf& leaf, Vec3i origin, const F& f) {
+    auto v = static_cast<std::size_t>(leaf.first_voxel);
+    for (int x = 0; x < 8; ++x) {
+        for (std::uint64_t word = leaf.mask.active[static_cast<std::size_t>(x)]; word != 0;
+             word &= word - 1) {
+            const int bit = std::countr_zero(word);
+            f(v++, origin + Vec3i{x, bit >> 3, bit & 7});
+        }
     }
-    return out;
 }
 
 template <typename T>
@@ -65,20 +64,18 @@ TraversalLevel::TraversalLevel(const VoxelLevel& source) : info_(source.info()) 
     const std::vector<std::uint16_t> table = depth_table(info_.lattice);
     voxels_.reserve(static_cast<std::size_t>(info_.voxel_count));
     lobes_.reserve(static_cast<std::size_t>(info_.lobe_count));
-    constexpr float kUnknown = std::numeric_limits<float>::infinity();
-    float thinnest = kUnknown;
-    for (const Material& m : info_.materials) {
-        fibers_only_ &= m.kind == MaterialKind::Fiber;
-        if (m.fiber_radius > 0.0f) thinnest = std::min(thinnest, m.fiber_radius);
-    }
-    const Vec3d h = info_.lattice.voxel_size;
-    const auto edge = static_cast<float>(std::max({h.x, h.y, h.z}));
-    if (thinnest < kUnknown) fibers_across_ = std::log2(edge / thinnest);
+    for (const Material& m : info_.materials) fibers_only_ &= m.kind == MaterialKind::Fiber;
     IndexBox box;
     VoxelBlock scratch;
+    std::vector<Vec3i> origins;
+    std::vector<std::array<std::uint8_t, 3>> correlation;
     for (std::size_t b = 0; b < source.block_count(); ++b) {
-        append(source.block(b, scratch), table, box);
+        const VoxelBlock& block = source.block(b, scratch);
+        append(block, table, box);
+        for (const VoxelLeaf& leaf : block.leaves) origins.push_back(leaf.origin);
+        append_to(correlation, block.correlation);
     }
+    if (has_cells()) fit_cells(origins, correlation);
     if (box.empty()) return;
     lo_ = box.lo;
     hi_ = box.hi + Vec3i{1, 1, 1};
@@ -99,6 +96,7 @@ void TraversalLevel::append(const VoxelBlock& block,
         std::uint32_t lobe = 0;
         for (std::size_t v = from.first_voxel; v < from.first_voxel + count; ++v) {
             const Coverage& c = block.coverage[v];
+            occupancy_ += c.occupancy;
             const std::uint32_t lobes = block.lobe_count[v];
             voxels_.push_back(
                 {{depth_of_coverage[c.x], depth_of_coverage[c.y], depth_of_coverage[c.z]},
@@ -109,15 +107,100 @@ void TraversalLevel::append(const VoxelBlock& block,
     append_to(lobes_, block.lobes);
     append_to(maps_, block.maps);
     append_to(tangents_, block.tangents);
-    for (const auto& footprint : block.footprints) {
-        footprints_.push_back(pack_footprints(footprint, info_.fields.footprints));
+    if (fibers_only_) append_to(cells_, block.occupancy);
+}
+
+std::int64_t TraversalLevel::next_voxel(Vec3i at, int axis) const {
+    ++at[axis];
+    const LeafLookup place = find_leaf(at);
+    return place.leaf == nullptr ? -1 : place.leaf->find(at);
+}
+
+Vec3f TraversalLevel::depths(std::int64_t v) const {
+    const TraversalVoxel& from = voxel(v);
+    Vec3f out;
+    for (int a = 0; a < 3; ++a) {
+        const std::uint16_t depth = from.depth[static_cast<std::size_t>(a)];
+        out[a] = has_cells() ? -std::log1p(-coverage_of_cells(sort_columns(cells(v), a),
+                                                              unpack_extinction({depth})))
+                             : static_cast<float>(depth) * kDepthUnit;
     }
-    append_to(correlation_, block.correlation);
+    return out;
+}
+
+void TraversalLevel::find_crowding(const std::vector<std::array<float, 3>>& extinction) {
+    double radius = 0.0, fibers = 0.0;
+    for (const Material& m : info_.materials) {
+        if (!(m.fiber_radius > 0.0f)) continue;
+        radius += static_cast<double>(m.fiber_radius);
+        fibers += 1.0;
+    }
+    if (fibers == 0.0) return;
+    radius /= fibers;
+    double depth = 0.0; // sum over the voxels of the mean optical depth of their volume
+    for (std::size_t v = 0; v < voxels_.size(); ++v) {
+        const float sum = extinction[v][0] + extinction[v][1] + extinction[v][2];
+        depth += static_cast<double>(sum) * std::popcount(cells_[v]) / (3.0 * 64.0);
+    }
+    const Vec3d h = info_.lattice.voxel_size;
+    const double edge = std::cbrt(h.x * h.y * h.z);
+    const double touched = static_cast<double>(occupancy_) / 65535.0 *
+                           share_of_touched(radius, edge / info_.lattice.subvoxels);
+    if (!(depth > 0.0)) return;
+    // Cylinders of diameter D and volume v have the extinction 4 v / (pi D).
+    const double diameter = 4.0 * touched * edge / (std::numbers::pi * depth);
+    crowding_ = static_cast<float>(std::max(1.0, diameter / (2.0 * radius)));
+}
+
+void TraversalLevel::fit_cells(const std::vector<Vec3i>& origins,
+                               const std::vector<std::array<std::uint8_t, 3>>& correlation) {
+    constexpr std::size_t kGrain = 16; // leaves
+    using PerAxis = std::array<float, 3>;
+    const auto for_voxels = [&](const auto& f) {
+        parallel_chunks(leaves_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) for_each_voxel(leaves_[i], origins[i], f);
+        });
+    };
+    std::vector<PerAxis> extinction(voxels_.size());
+    for_voxels([&](std::size_t v, Vec3i) {
+        for (std::size_t a = 0; a < 3; ++a) {
+            extinction[v][a] = fit_extinction(sort_columns(cells_[v], static_cast<int>(a)),
+                                              coverage_of(voxels_[v].depth[a]));
+        }
+    });
+    find_crowding(extinction);
+    // of each voxel and the one after it, and the part that this leaves of the later one
+    std::vector<PerAxis> first(correlation.empty() ? 0 : voxels_.size(), PerAxis{1.0f, 1.0f, 1.0f});
+    std::vector<PerAxis> second = first;
+    if (!correlation.empty()) {
+        for_voxels([&](std::size_t v, Vec3i at) {
+            for (std::size_t a = 0; a < 3; ++a) {
+                const int axis = static_cast<int>(a);
+                const std::int64_t next = next_voxel(at, axis);
+                if (next < 0) continue;
+                const auto row_voxel = [&](std::size_t w) {
+                    return RowVoxel{sort_columns(cells_[w], axis), extinction[w][a],
+                                    coverage_of(voxels_[w].depth[a])};
+                };
+                const auto after = static_cast<std::size_t>(next);
+                const float together = fit_pair(row_voxel(v), row_voxel(after),
+                                                static_cast<float>(correlation[v][a]) / 255.0f);
+                first[v][a] = together;
+                second[after][a] = together;
+            }
+        });
+    }
+    for_voxels([&](std::size_t v, Vec3i) {
+        for (std::size_t a = 0; a < 3; ++a) {
+            const float in_row = first.empty() ? 1.0f : first[v][a] + second[v][a] - 1.0f;
+            voxels_[v].depth[a] = pack_extinction(extinction[v][a], in_row).bits;
+        }
+    });
 }
 
 std::int64_t TraversalLevel::byte_count() const {
     return table_.byte_count() + bytes_of(leaves_) + bytes_of(voxels_) + bytes_of(lobes_) +
-           bytes_of(maps_) + bytes_of(tangents_) + bytes_of(footprints_) + bytes_of(correlation_);
+           bytes_of(maps_) + bytes_of(tangents_) + bytes_of(cells_);
 }
 
 } // namespace heddle

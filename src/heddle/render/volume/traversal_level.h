@@ -3,6 +3,7 @@
 #include <heddle/base/vec.h>
 #include <heddle/leaf_table/leaf_table.h>
 #include <heddle/leaf_table/ranked_mask.h>
+#include <heddle/render/volume/cell_extinction.h>
 #include <heddle/voxel/index_box.h>
 #include <heddle/voxel/voxel_level.h>
 
@@ -18,7 +19,8 @@ inline constexpr float kDepthUnit = 16.0f / 65535.0f;
 
 /// The data that a ray needs to pass a voxel: one read of 8 bytes.
 struct TraversalVoxel {
-    std::array<std::uint16_t, 3> depth{}; ///< -ln(1 - coverage) along each axis, in kDepthUnit
+    std::array<std::uint16_t, 3> depth{}; ///< -ln(1 - coverage) along each axis, in kDepthUnit; of
+                                          ///< a level with cells: CellExtinction::bits
     std::uint16_t lobe_offset =
         0; ///< 12 low bits: first lobe within the leaf; 4 high bits: lobes - 1
 };
@@ -62,6 +64,25 @@ public:
         return {place.leaf == LeafTable<3>::kNone ? nullptr : &leaves_[place.leaf], place.size};
     }
 
+    /// Returns true if the cells of its voxels are known (cell_columns.h): all materials are
+    /// fibers, and the file has them.
+    [[nodiscard]] bool has_cells() const { return !cells_.empty(); }
+    /// The cells of a voxel of a level that has them.
+    [[nodiscard]] std::uint64_t cells(std::int64_t v) const {
+        return cells_[static_cast<std::size_t>(v)];
+    }
+    /// The extinctions of these cells along the axes.
+    [[nodiscard]] std::array<CellExtinction, 3> extinction(std::int64_t v) const {
+        const std::array<std::uint16_t, 3>& bits = voxel(v).depth;
+        return {CellExtinction{bits[0]}, CellExtinction{bits[1]}, CellExtinction{bits[2]}};
+    }
+    /// Returns the diameter of what blocks rays, in diameters of a fiber: 1 where fibers stand
+    /// alone, more where they are behind each other, so that a voxel's coverage tells only of their
+    /// bundle.
+    [[nodiscard]] float crowding() const { return crowding_; }
+    /// Returns -ln(1 - coverage) of a voxel along each axis.
+    [[nodiscard]] Vec3f depths(std::int64_t v) const;
+
     [[nodiscard]] const TraversalVoxel& voxel(std::int64_t v) const {
         return voxels_[static_cast<std::size_t>(v)];
     }
@@ -83,31 +104,26 @@ public:
     }
     /// Returns true if all materials are of fibers.
     [[nodiscard]] bool fibers_only() const { return fibers_only_; }
-    /// Returns log2 of the voxel's longest edge in radii of the thinnest fiber; 0 if no radius is
-    /// known.
-    [[nodiscard]] float fibers_across() const { return fibers_across_; }
-    [[nodiscard]] bool has_footprints() const { return !footprints_.empty(); }
-    /// Footprints of 4 x 4 cells along x, y and z, 16 bits each, from the lowest bit: bit 4 b + a
-    /// is the cell with the indices a and b on the next two axes.
-    /// @param v  a voxel of a level that has footprints
-    [[nodiscard]] std::uint64_t footprints(std::int64_t v) const {
-        return footprints_[static_cast<std::size_t>(v)];
-    }
-    [[nodiscard]] bool has_correlation() const { return !correlation_.empty(); }
-    /// VoxelBlock::correlation. @param v  a voxel of a level that has it
-    [[nodiscard]] const std::array<std::uint8_t, 3>& correlation(std::int64_t v) const {
-        return correlation_[static_cast<std::size_t>(v)];
-    }
     [[nodiscard]] std::int64_t byte_count() const;
 
 private:
     void append(const VoxelBlock& block,
                 const std::vector<std::uint16_t>& depth_of_coverage,
                 IndexBox& box);
+    /// Replaces the depths of all voxels by the extinctions of their cells.
+    /// @param origins      of the leaves
+    /// @param correlation  VoxelBlock::correlation of all voxels; may be empty
+    void fit_cells(const std::vector<Vec3i>& origins,
+                   const std::vector<std::array<std::uint8_t, 3>>& correlation);
+    /// Sets crowding_. @param extinction  of the cells, per voxel and axis
+    void find_crowding(const std::vector<std::array<float, 3>>& extinction);
+    /// Returns the number of the voxel after the one at `at` along an axis; -1 if there is none.
+    [[nodiscard]] std::int64_t next_voxel(Vec3i at, int axis) const;
 
     VoxelLevelInfo info_;
     bool fibers_only_ = true;
-    float fibers_across_ = 0.0f;
+    float crowding_ = 1.0f;
+    std::uint64_t occupancy_ = 0; ///< sum of Coverage::occupancy
     Vec3i lo_{}, hi_{};
     LeafTable<3> table_;
     std::vector<TraversalLeaf> leaves_; ///< in the order of the table's numbers
@@ -115,8 +131,7 @@ private:
     std::vector<Lobe> lobes_;
     std::vector<LobeMaps> maps_;
     std::vector<PackedSggx> tangents_;
-    std::vector<std::uint64_t> footprints_;
-    std::vector<std::array<std::uint8_t, 3>> correlation_;
+    std::vector<std::uint64_t> cells_;
 };
 
 } // namespace heddle

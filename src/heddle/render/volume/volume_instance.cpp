@@ -202,8 +202,7 @@ void VolumeInstance::walk(const Ray& ray,
         const VoxelRay voxel_ray{origin * per, direction * per};
         const RayRange inside =
             clip(origin, direction, t, wanted.end, level_bounds_[static_cast<std::size_t>(number)]);
-        passage.enter_level();
-        with_law(transport, level, voxel_ray, ray.bulk, passage, [&](auto law) {
+        with_law(transport, level, voxel_ray, ray.start, scale_, passage, [&](auto law) {
             traverse_voxels(level, voxel_ray, inside.t0, inside.t1, [&](const VoxelStep& step) {
                 if (law.pass(step)) return true;
                 note(number, step);
