@@ -11,11 +11,13 @@ namespace heddle {
 
 /// How the extinctions of voxels along a ray are combined. docs/transport.md compares the choices.
 enum class Transport : std::uint8_t {
-    Automatic, ///< Footprint for fibers if the file has footprints, else Product
+    Automatic, ///< Sheet if the file has slabs, Footprint for fibers if it has footprints, else
+               ///< Product
     Product,   ///< independent voxels: optical depths add up          [Fabre26, LopezMoreno17]
     Threshold, ///< neighbours share a random threshold as far as their faces correlate; Product
                ///< if the file has no correlation
     Footprint, ///< by the cells of the faces that a ray crosses; Product without footprints
+    Sheet,     ///< surfaces are sheets within their plane slabs; Product without slabs
     /// a FlakeMedium instead of a VolumeInstance: one SGGX per voxel, interpolated [Heitz15]
     Flakes
 };
@@ -31,6 +33,9 @@ enum class Transport : std::uint8_t {
 [[nodiscard]] inline Transport resolve(Transport asked, const TraversalLevel& level) {
     if (asked == Transport::Threshold) {
         return level.has_correlation() ? asked : Transport::Product;
+    }
+    if (asked == Transport::Sheet || (asked == Transport::Automatic && level.has_sheets())) {
+        return level.has_sheets() ? Transport::Sheet : Transport::Product;
     }
     const bool wants =
         asked == Transport::Footprint || (asked == Transport::Automatic && level.fibers_only());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <heddle/base/random.h>
+#include <heddle/render/volume/sheet_law.h>
 #include <heddle/render/volume/swept_depth.h>
 #include <heddle/render/volume/transport.h>
 #include <heddle/render/volume/walk.h>
@@ -70,8 +71,26 @@ public:
         return goes_on(depth) || stop(step, depth);
     }
 
+    /// Crosses a sheet, which stops the ray with probability 1 - exp(-depth).
+    /// @param side  of the sheet from which the ray comes: 1 above, -1 below
+    /// @return      false: the traversal ends here
+    bool pass_sheet(float t, float depth, int side) {
+        depth_ += depth;
+        if (goes_on(depth)) {
+            threshold_ -= depth;
+            return true;
+        }
+        t_ = t;
+        side_ = side;
+        stopped_ = true;
+        return false;
+    }
+    [[nodiscard]] LastSheet& last_sheet() { return last_sheet_; }
+
     [[nodiscard]] bool stopped() const { return stopped_; }
     [[nodiscard]] float t() const { return t_; } ///< where a flight stopped
+    /// Returns the side of the sheet that stopped the ray; 0 if no sheet did.
+    [[nodiscard]] int side() const { return side_; }
     [[nodiscard]] float transmittance() const { return stopped_ ? 0.0f : std::exp(-depth_); }
 
 private:
@@ -95,6 +114,8 @@ private:
     float largest_ = 0.0f; ///< largest optical depth of this run
     float t_ = 0.0f;
     bool stopped_ = false;
+    int side_ = 0;
+    LastSheet last_sheet_;
     bool in_run_ = false; ///< the last voxel in this level is of a run
 };
 
@@ -203,19 +224,28 @@ private:
     std::int64_t last_voxel_ = 0;
 };
 
+/// What a law needs of a ray beside its path.
+struct LawArguments {
+    float bulk;         ///< Ray::bulk
+    float sheet;        ///< Ray::sheet
+    std::int64_t start; ///< voxel of the level on whose sheet the ray starts; -1: none
+};
+
 /// Calls walk(law) with the law of the transport that resolve() gives for the level.
-/// @param ray   in the level's voxels; must outlive the call
-/// @param bulk  Ray::bulk
+/// @param ray  in the level's voxels; must outlive the call
 template <typename Walk>
 void with_law(Transport asked,
               const TraversalLevel& level,
               const VoxelRay& ray,
-              float bulk,
+              const LawArguments& from,
               RayPassage& passage,
               const Walk& walk) {
     switch (resolve(asked, level)) {
-    case Transport::Threshold: walk(RunLaw<CorrelatedVoxels>(level, ray, bulk, passage)); return;
-    case Transport::Footprint: walk(RunLaw<FootprintVoxels>(level, ray, bulk, passage)); return;
+    case Transport::Threshold: walk(RunLaw<CorrelatedVoxels>(level, ray, from.bulk, passage)); return;
+    case Transport::Footprint: walk(RunLaw<FootprintVoxels>(level, ray, from.bulk, passage)); return;
+    case Transport::Sheet:
+        walk(SheetLaw<RayPassage>(level, ray, from.sheet, from.start, passage));
+        return;
     default: walk(ProductLaw(level, ray, passage)); return;
     }
 }

@@ -3,6 +3,7 @@
 #include <heddle/base/vec.h>
 #include <heddle/leaf_table/leaf_table.h>
 #include <heddle/leaf_table/ranked_mask.h>
+#include <heddle/render/volume/sheet_voxel.h>
 #include <heddle/voxel/index_box.h>
 #include <heddle/voxel/voxel_level.h>
 
@@ -98,12 +99,18 @@ public:
     [[nodiscard]] const std::array<std::uint8_t, 3>& correlation(std::int64_t v) const {
         return correlation_[static_cast<std::size_t>(v)];
     }
+    [[nodiscard]] bool has_sheets() const { return !sheets_.empty(); }
+    /// @param v  a voxel of a level that has sheets
+    [[nodiscard]] const SheetVoxel& sheet(std::int64_t v) const {
+        return sheets_[static_cast<std::size_t>(v)];
+    }
     [[nodiscard]] std::int64_t byte_count() const;
 
 private:
     void append(const VoxelBlock& block,
                 const std::vector<std::uint16_t>& depth_of_coverage,
                 IndexBox& box);
+    void append_sheets(const VoxelBlock& block, std::size_t first_voxel);
 
     VoxelLevelInfo info_;
     bool fibers_only_ = true;
@@ -117,6 +124,7 @@ private:
     std::vector<PackedSggx> tangents_;
     std::vector<std::uint64_t> footprints_;
     std::vector<std::array<std::uint8_t, 3>> correlation_;
+    std::vector<SheetVoxel> sheets_;
 };
 
 } // namespace heddle

@@ -182,6 +182,15 @@ int VolumeInstance::usable_level(int level) const {
     return 0;
 }
 
+LastSheet VolumeInstance::start_sheet(const Ray& ray, Vec3d direction) const {
+    const TraversalLevel& level = *pyramid_[static_cast<std::size_t>(ray.start.level)];
+    const Vec3f edges = to_float(level.info().lattice.voxel_size);
+    const detail::PlacedSheet sheet =
+        detail::place_sheet(level.sheet(ray.start.voxel), edges, ray.sheet);
+    const float slope = dot(sheet.normal, to_float(direction));
+    return {sheet.normal, 0.0f, slope, 0.0f, sheet.thickness, ray.start.side};
+}
+
 template <typename Note>
 void VolumeInstance::walk(const Ray& ray,
                           Transport transport,
@@ -192,6 +201,8 @@ void VolumeInstance::walk(const Ray& ray,
     const Vec3d origin = to_object_.point(ray.origin);
     const Vec3d direction = to_object_.direction(to_double(ray.direction));
     const RayRange range = clip(origin, direction, ray.clear, ray.t_max, object_bounds_);
+    const bool starts = ray.start.volume == this;
+    if (starts) passage.last_sheet() = start_sheet(ray, direction);
     for (float t = range.t0; t < range.t1 && !passage.stopped();) {
         const WantedLevel wanted =
             find_wanted(ray, choice, static_cast<float>(voxel_size_), t, range.t1);
@@ -203,7 +214,9 @@ void VolumeInstance::walk(const Ray& ray,
         const RayRange inside =
             clip(origin, direction, t, wanted.end, level_bounds_[static_cast<std::size_t>(number)]);
         passage.enter_level();
-        with_law(transport, level, voxel_ray, ray.bulk, passage, [&](auto law) {
+        const std::int64_t start = starts && number == ray.start.level ? ray.start.voxel : -1;
+        const LawArguments from{ray.bulk, ray.sheet, start};
+        with_law(transport, level, voxel_ray, from, passage, [&](auto law) {
             traverse_voxels(level, voxel_ray, inside.t0, inside.t1, [&](const VoxelStep& step) {
                 if (law.pass(step)) return true;
                 note(number, step);
@@ -221,7 +234,7 @@ bool VolumeInstance::sample_flight(const Ray& ray,
                                    VolumeHit& hit) const {
     RayPassage passage(true, random);
     walk(ray, transport, choice, passage, [&](int level, const VoxelStep& step) {
-        hit = {passage.t(), level, &step.leaf, step.voxel};
+        hit = {passage.t(), level, &step.leaf, step.voxel, passage.side()};
     });
     return passage.stopped();
 }
