@@ -32,7 +32,7 @@ struct Event {
     bool fiber = false; ///< in a volume, as VolumeScatter
     float radius = 0.0f;
     float edge = 0.0f;
-    SheetStart sheet; ///< in a volume: the sheet that was met
+    SheetStart sheet{}; ///< in a volume: the sheet that was met
 };
 
 class PathTracer {
@@ -87,7 +87,7 @@ private:
         bool found = false;
         Ray open = ray;
         if (TracedHit hit; scene_.surfaces && scene_.surfaces->intersect(ray, hit)) {
-            event = {hit.t, hit.scatterer, hit.material, 0.0f, hit.normal, hit.offset, false, 0.0f, 0.0f, {}};
+            event = {hit.t, hit.scatterer, hit.material, 0.0f, hit.normal, hit.offset, false, 0.0f};
             open.t_max = hit.t;
             found = true;
         }

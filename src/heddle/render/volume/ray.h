@@ -28,7 +28,7 @@ struct Ray {
     float bulk = 0.0f;  ///< 1: leaves its fiber into the yarn; 0: away from it, or no fiber
 
     float sheet = 0.5f; ///< where in their slabs the sheets are that the ray meets, 0 to 1
-    SheetStart start;
+    SheetStart start{};
 
     [[nodiscard]] Vec3d at(double t) const { return origin + to_double(direction) * t; }
     [[nodiscard]] float width_at(float t) const { return width + spread * t; }

@@ -88,3 +88,78 @@ TEST(Sheet, Sphere) {
 
 } // namespace
 } // namespace heddle
+namespace heddle {
+namespace {
+struct Disc { Vec3d at, n; double r; bool mask; };
+
+TEST(Sheet, Foliage) {
+    for (const double r : {3.0, 1.0, 0.4}) {
+        for (const double spread : {0.0, 0.3, 9.0}) {
+          for (const bool mask : {false, true}) {
+            StreamRandom random{9};
+            std::vector<Disc> discs;
+            const int extent = 6;
+            const double area = 3.14 * r * r * (mask ? 0.5 : 1.0);
+            const int count = static_cast<int>(8 * 216 * 0.12 / area) + 1;
+            for (int i = 0; i < count; ++i) {
+                const auto u = [&] { return (double)(2 * random.uniform() - 1) * extent; };
+                Vec3d at{u(), u(), u()};
+                Vec3d n = normalize(Vec3d{0.3, 0.5, 0.8} + to_double(random_direction(random)) * spread);
+                discs.push_back({at, n, r, mask});
+            }
+            const auto has = [](const Disc& d, Vec3d p) {
+                const Vec3d q = p - d.at;
+                if (dot(q, q) > d.r * d.r) return false;
+                if (!d.mask) return true;
+                const Vec3d s = to_double(any_perpendicular(to_float(d.n)));
+                return std::sin(dot(q, s) * 9.0 / d.r) > 0.0;
+            };
+            const CrossSurface surface = [&](int axis, Vec3d line) {
+                std::vector<SurfacePoint> out;
+                for (const Disc& d : discs) {
+                    Vec3d p = line;
+                    p[axis] = 0;
+                    p[axis] = dot(d.n, d.at - p) / d.n[axis];
+                    if (has(d, p)) out.push_back({p, d.n});
+                }
+                return out;
+            };
+            const VolumeInstance volume({sheet_level(surface, extent, 0)}, {}, {0});
+            for (const bool axial : {true, false}) {
+                MeanOf truth;
+                double bias[2]{}, err[2]{}; int n = 0;
+                for (int i = 0; i < 1500; ++i) {
+                    Vec3d dir = to_double(random_direction(random));
+                    if (axial) { dir = {}; dir[i % 3] = 1; }
+                    const Vec3d side = to_double(any_perpendicular(to_float(dir)));
+                    const Vec3d up = cross(dir, side);
+                    const Vec3d c = to_double(random_direction(random)) * 3.0;
+                    double t = 0, s[2]{};
+                    constexpr int k = 6;
+                    for (int j = 0; j < k * k; ++j) {
+                        const Vec3d o = c + side * ((j % k + 0.5) / k - 0.5) + up * ((j / k + 0.5) / k - 0.5) - dir * 1.7;
+                        bool open = true;
+                        for (const Disc& d : discs) {
+                            const double q = dot(d.n, d.at - o) / dot(d.n, dir);
+                            if (q > 0 && q < 3.4 && has(d, o + dir * q)) open = false;
+                        }
+                        t += open;
+                        Ray ray = ray_along(o, dir);
+                        ray.t_max = 3.4f;
+                        ray.sheet = random.uniform();
+                        s[0] += (double)volume.transmittance(ray, Transport::Sheet, kFinest, random);
+                        s[1] += (double)volume.transmittance(ray, Transport::Product, kFinest, random);
+                    }
+                    truth.add(t / k / k);
+                    for (int m = 0; m < 2; ++m) { bias[m] += (s[m] - t) / k / k; err[m] += std::fabs(s[m] - t) / k / k; }
+                    ++n;
+                }
+                std::printf("r %.1f spread %.1f mask %d %-7s truth %.3f sheet %+.3f/%.3f product %+.3f/%.3f\n", r, spread, mask,
+                            axial ? "axial" : "oblique", truth.mean(), bias[0] / n, err[0] / n, bias[1] / n, err[1] / n);
+            }
+          }
+        }
+    }
+}
+} // namespace
+} // namespace heddle
