@@ -1,8 +1,10 @@
 #pragma once
 
+#include <heddle/device/fit_slabs_op.h>
 #include <heddle/device/gather_fibers_op.h>
 #include <heddle/device/gather_triangle_op.h>
 #include <heddle/device/level/fit_sums.h>
+#include <heddle/device/level/join_slabs_op.h>
 
 #include <array>
 #include <cstdint>
@@ -138,6 +140,42 @@ void gather_triangles(Exec& exec,
                   GatherTriangleOp<Kind>{scene.surfaces, scene.units, sums, of_kind.data()});
 }
 
+/// Widens the slabs of a batch's voxels by its triangles of one kind.
+template <SurfaceKind Kind, typename Exec>
+void widen_slabs(Exec& exec,
+                 const DeviceGeometry& scene,
+                 const BatchBlock* blocks,
+                 const BatchPairs& pairs,
+                 const BatchSlabs& slabs) {
+    const executor::Array<BlockPair>& of_kind = pairs.of[number_of(Kind)];
+    exec.for_each(of_kind.size(),
+                  WidenSlabsOp<Kind>{scene.surfaces, scene.units.n, blocks, of_kind.data(), slabs});
+}
+
+/// Fits the slabs of level 0 of a batch, as SlabFitter does.
+/// @throws Error  OutOfMemory, Device
+template <typename Exec>
+void fit_slabs(Exec& exec,
+               const DeviceGeometry& scene,
+               const BatchBlock* blocks,
+               const BatchPairs& pairs,
+               LevelArrays& level) {
+    exec.set_phase("slabs");
+    const std::size_t n = level.voxel_count;
+    level.slabs = exec.template make<OpenSlab>(n);
+    const auto reach = exec.template make_zero<std::uint32_t>(2 * n);
+    exec.for_each(
+        n, OpenSlabsOp{scene.fit, level.first_lobe.data(), level.lobes.data(), level.slabs.data()});
+    const BatchSlabs slabs{level.key.data(),   level.first_lobe.data(),
+                           level.lobes.data(), level.slabs.data(),
+                           reach.data(),       n,
+                           scene.fit.max_lobes};
+    widen_slabs<SurfaceKind::Constant>(exec, scene, blocks, pairs, slabs);
+    widen_slabs<SurfaceKind::Shaded>(exec, scene, blocks, pairs, slabs);
+    widen_slabs<SurfaceKind::Displaced>(exec, scene, blocks, pairs, slabs);
+    exec.for_each(n, CloseSlabsOp{reach.data(), level.slabs.data()});
+}
+
 /// Returns level 0 of a batch of blocks, gathered from the primitives and fitted.
 /// @throws Error  OutOfMemory, Device
 template <typename Exec>
@@ -168,7 +206,9 @@ template <typename Exec>
     gather_triangles<SurfaceKind::Constant>(exec, scene, sums, pairs);
     gather_triangles<SurfaceKind::Shaded>(exec, scene, sums, pairs);
     gather_triangles<SurfaceKind::Displaced>(exec, scene, sums, pairs);
-    return fit_sums(exec, sums, n, merging, scene.fit);
+    LevelArrays level0 = fit_sums(exec, sums, n, merging, scene.fit);
+    if (scene.fit.fields.slabs) fit_slabs(exec, scene, blocks.data(), pairs, level0);
+    return level0;
 }
 
 } // namespace heddle

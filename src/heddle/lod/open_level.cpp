@@ -5,6 +5,8 @@
 #include <heddle/sggx/pack.h>
 #include <heddle/voxel/footprint.h>
 #include <heddle/voxel/leaf_voxels.h>
+#include <heddle/voxel/parent_slab.h>
+#include <heddle/voxel/stored_lobe.h>
 
 #include <bit>
 #include <cmath>
@@ -180,6 +182,21 @@ void join_seen(OpenVoxel& parent, CoverageRule rule, const std::array<const Open
     }
 }
 
+void join_slabs(OpenVoxel& parent,
+                const DirectionSums& first_lobe,
+                const LevelOptions& options,
+                const std::array<const OpenVoxel*, 8>& child) {
+    if (!options.fields.slabs || !options.normals.has(first_lobe.material)) return;
+    parent.slab =
+        OpenSlab({}, fit_packed(first_lobe.moment, first_lobe.weight), options.lattice.voxel_size);
+    ParentSlab joined{parent.slab.gradient};
+    for (int c = 0; c < 8; ++c) {
+        const OpenVoxel* const of = child[static_cast<std::size_t>(c)];
+        if (of != nullptr && of->slab.there) joined.add(c, of->slab.gradient, of->slab.planes);
+    }
+    parent.slab.planes = joined.slab();
+}
+
 void open_block(const VoxelBlock& stored,
                 Vec3i block,
                 const LevelOptions& options,
@@ -200,6 +217,10 @@ void open_block(const VoxelBlock& stored,
         voxel.first_lobe = static_cast<std::uint32_t>(out.lobes.size());
         voxel.lobe_count = stored.lobe_count[from.voxel];
         open_lobes(from, options, out);
+        const Lobe& first = from.lobes().front();
+        if (options.fields.slabs && options.normals.has(first.material)) {
+            voxel.slab = OpenSlab(from.slab(), first.sggx, options.lattice.voxel_size);
+        }
         if (rule == CoverageRule::Union) {
             const auto& columns = stored.columns[from.voxel];
             out.columns.insert(out.columns.end(), columns.begin(), columns.end());
@@ -227,6 +248,7 @@ void build_level(const OpenLevel& below,
                 if (options.coverage == CoverageRule::Union) join_columns(below, child, out);
                 merge_lobes(below, child, options,
                             seed_of(options, out.level, out.origin + Vec3i{x, y, z}), pool, out);
+                join_slabs(voxel, out.lobes[voxel.first_lobe], options, seen);
             }
         }
     }
@@ -240,6 +262,7 @@ void append_coverage(const OpenVoxel& voxel,
     const double n = std::ldexp(static_cast<double>(options.lattice.subvoxels), level);
     Coverage& c = out.coverage.emplace_back();
     c.occupancy = wide_fraction16(voxel.hits, n * n * n);
+    if (options.fields.slabs) out.slabs.push_back(voxel.slab.planes);
     if (options.coverage == CoverageRule::Union) {
         c.x = wide_fraction16(covered[0], n * n);
         c.y = wide_fraction16(covered[1], n * n);
@@ -293,6 +316,7 @@ void append_voxel(const OpenLevel& level,
     for (std::size_t i = voxel.first_lobe; i < voxel.first_lobe + voxel.lobe_count; ++i) {
         pool.add(level.lobes[i], options.merge.with_maps ? &level.maps[i] : nullptr);
     }
+    if (voxel.slab.there) fits.remember(pool.sums[0], voxel.slab.first_lobe);
     append_lobes(pool, voxel.order, options.fields, fits, out);
 }
 

@@ -39,6 +39,23 @@ struct LevelOptions {
 /// @param subvoxels  subvoxels per voxel axis; c is clamped to 1 - 1 / (2 columns)
 [[nodiscard]] double mean_depth(const Coverage& c, int subvoxels);
 
+/// The slab of a voxel whose first lobe is of a surface, as it is stored, and what a parent needs
+/// to hold it.
+struct OpenSlab {
+    bool there = false; ///< else the first lobe is of fibers, which have no planes
+    PlaneSlab planes;
+    PackedSggx first_lobe; ///< as it is stored
+    Vec3d gradient;        ///< slab_gradient() of it
+
+    OpenSlab() = default;
+    /// @param edges  of the voxel, of which only the ratios count
+    HEDDLE_HD OpenSlab(PlaneSlab stored, const PackedSggx& first, Vec3d edges)
+        : there(true),
+          planes(stored),
+          first_lobe(first),
+          gradient(slab_gradient(slab_normal(first), edges)) {}
+};
+
 /// A voxel before it is stored, without its columns.
 struct OpenVoxel {
     std::int64_t hits = 0; ///< number of occupied subvoxels
@@ -46,6 +63,7 @@ struct OpenVoxel {
     std::uint32_t first_lobe = 0;
     std::uint32_t order = 0; ///< VoxelBlock::merge_order
     std::uint8_t lobe_count = 0;
+    OpenSlab slab; ///< with fields.slabs
 };
 
 /// The voxels of one level in one block, unquantized, while the level above is built from them.
@@ -107,6 +125,14 @@ struct OpenLevel {
 /// Adds the hits of all children to a parent, and their `seen` by the coverage rule.
 /// @param child  number 4 x + 2 y + z; null: no such child
 void join_seen(OpenVoxel& parent, CoverageRule rule, const std::array<const OpenVoxel*, 8>& child);
+
+/// Makes the slab of a parent hold those of its children.
+/// @param first_lobe  of the parent, before it is stored
+/// @param child       number 4 x + 2 y + z; null: no such child
+void join_slabs(OpenVoxel& parent,
+                const DirectionSums& first_lobe,
+                const LevelOptions& options,
+                const std::array<const OpenVoxel*, 8>& child);
 
 /// Makes level 0 of a block from the stored block. If it has no sums, moments are those of the
 /// stored S.

@@ -28,9 +28,11 @@ struct PlaneSlab {
 static_assert(sizeof(PlaneSlab) == 2, "two bytes in files");
 
 /// Returns the normal that a slab of a voxel refers to, from the S of its first lobe as stored.
-/// @return  unit, to the rounding of a float; its largest component is positive (eigen.h)
+/// @return  unit to 1e-9; its component of largest magnitude is positive (eigen.h). It is never
+///          rounded to floats: gcc 12 leaves such a rounding out where it vectorizes, and the bits
+///          would depend on the caller
 [[nodiscard]] HEDDLE_HD inline Vec3d slab_normal(const PackedSggx& first_lobe) {
-    return to_double(principal_direction(unpack(first_lobe)));
+    return principal_axis(unpack(first_lobe));
 }
 
 /// Returns half of a voxel's extent along `normal`.

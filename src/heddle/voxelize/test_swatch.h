@@ -75,6 +75,7 @@ struct Content {
     std::uint32_t merge_order = 0;
     std::array<std::uint64_t, 3> footprints{};
     std::array<std::uint8_t, 3> correlation{};
+    PlaneSlab slab{};
     friend bool operator==(const Content&, const Content&) = default;
 };
 
@@ -87,6 +88,9 @@ inline std::map<Key, Content> content_of(const VoxelLevel& source) {
                                              v.merge_order(),
                                              v.footprints(),
                                              v.correlation()};
+    });
+    for_each_voxel(source, [&](const BlockVoxel& v) {
+        content[{v.at.x, v.at.y, v.at.z}].slab = v.slab();
     });
     EXPECT_EQ(static_cast<std::int64_t>(content.size()), source.info().voxel_count);
     return content;
@@ -112,6 +116,7 @@ inline void expect_same_block(const VoxelBlock& a, const VoxelBlock& b) {
     ASSERT_TRUE(a.map_sums == b.map_sums);
     ASSERT_TRUE(a.footprints == b.footprints);
     ASSERT_TRUE(a.correlation == b.correlation);
+    ASSERT_TRUE(a.slabs == b.slabs);
 }
 
 } // namespace heddle::test

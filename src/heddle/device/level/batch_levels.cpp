@@ -13,10 +13,11 @@ struct LevelCounts {
     std::int64_t lobes = 0;
 };
 
-std::int64_t array_bytes(int level, const LevelCounts& count, bool maps) {
+std::int64_t array_bytes(int level, const LevelCounts& count, const VoxelFields& fields) {
     const std::int64_t words = std::int64_t{1} << (2 * level);
-    const std::size_t per_lobe = sizeof(DirectionSums) + (maps ? sizeof(MapSums) : 0);
-    return count.voxels * (8 + 3 * 4 + 24 * words) + 4 +
+    const std::size_t per_lobe = sizeof(DirectionSums) + (fields.map_sums() ? sizeof(MapSums) : 0);
+    const std::int64_t slab = fields.slabs ? sizeof(OpenSlab) : 0;
+    return count.voxels * (8 + 3 * 4 + 24 * words + slab) + 4 +
            count.lobes * static_cast<std::int64_t>(per_lobe);
 }
 
@@ -54,6 +55,7 @@ std::unique_ptr<UpperVoxel> TopLevel::take(std::size_t slot) const {
     out->voxel.hits = hits[v];
     out->voxel.order = order[v];
     out->voxel.lobe_count = static_cast<std::uint8_t>(end - begin);
+    if (slabs.size() > 0) out->voxel.slab = slabs[v];
     out->lobes.assign(lobes.data() + begin, lobes.data() + end);
     if (maps.size() > 0) out->maps.assign(maps.data() + begin, maps.data() + end);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -77,17 +79,19 @@ std::int64_t predict_level_bytes(std::int64_t blocks,
                                  std::int64_t voxels,
                                  std::int64_t lobes,
                                  const BatchOptions& options) {
-    const bool maps = options.with_maps();
+    const VoxelFields& fields = options.level0.fields;
     LevelCounts below{voxels, lobes};
-    std::int64_t most = array_bytes(0, below, maps) + store_bytes(blocks, 0, below, options.level0);
+    std::int64_t most =
+        array_bytes(0, below, fields) + store_bytes(blocks, 0, below, options.level0);
     for (int level = 1; level <= options.levels; ++level) {
         const std::int64_t cells = blocks * (std::int64_t{kVoxelsPerBlock} >> (3 * level));
         LevelCounts here;
         here.voxels = std::min(below.voxels, cells);
         here.lobes = std::min(below.lobes, here.voxels * options.above.max_lobes);
-        const std::int64_t own = array_bytes(level, here, maps);
-        most = std::max({most, array_bytes(level - 1, below, maps) + own + join_bytes(below, here),
-                         own + store_bytes(blocks, level, here, options.above)});
+        const std::int64_t own = array_bytes(level, here, fields);
+        most =
+            std::max({most, array_bytes(level - 1, below, fields) + own + join_bytes(below, here),
+                      own + store_bytes(blocks, level, here, options.above)});
         below = here;
     }
     return most;

@@ -15,6 +15,7 @@ enum class GridKind : std::uint8_t {
     Footprint,     ///< int64: of 4 x 4 cells, three axes in one
     FootprintAxis, ///< int64: of 8 x 8 cells, one grid per axis
     Correlation,   ///< int32
+    Slab,          ///< int32
     Merge,         ///< int32
     Lobe,          ///< int64, one grid per lobe
     Albedo,        ///< int32, one grid per lobe

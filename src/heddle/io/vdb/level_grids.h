@@ -35,6 +35,7 @@ void for_each_voxel_grid(const LevelGrids& of, const Visit& visit) {
         visit(name(GridKind::FootprintAxis, a), FootprintAxisValues{{}, a});
     }
     if (of.fields.correlation) visit(name(GridKind::Correlation), CorrelationValues{});
+    if (of.fields.slabs) visit(name(GridKind::Slab), SlabValues{});
     if (of.merge) visit(name(GridKind::Merge), MergeValues{});
 }
 

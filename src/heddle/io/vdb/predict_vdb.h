@@ -37,9 +37,10 @@ predict_level_bytes(const LevelSize& of, const VoxelFields& fields, bool masks) 
         8 + 4 * fields.albedo + 4 * fields.surface + 8 * fields.tangents + 8 * sums;
     const std::int64_t footprints = fields.footprints == 8 ? 3 : fields.footprints == 4 ? 1 : 0;
     const std::int64_t columns = masks ? 3 : 0;
-    const std::int64_t voxel_grids = 3 + columns + footprints + fields.correlation;
-    const std::int64_t voxel_bytes =
-        4 + 6 + 8 + 8 * columns + 8 * footprints + 4 * fields.correlation;
+    std::int64_t voxel_grids = 3 + columns + footprints + fields.correlation;
+    std::int64_t voxel_bytes = 4 + 6 + 8 + 8 * columns + 8 * footprints + 4 * fields.correlation;
+    voxel_grids += fields.slabs;
+    voxel_bytes += 4 * fields.slabs;
     const std::int64_t merges = (of.lobes - of.voxels) / 2; // at most this many have three lobes
     const double lobes_per_voxel =
         of.voxels > 0 ? static_cast<double>(of.lobes) / static_cast<double>(of.voxels) : 1.0;

@@ -34,9 +34,11 @@ void check_format(const std::string& path, const VdbContents& file) {
             str("a VDB that heddle did not write: it holds ", list.empty() ? "no grids" : list),
             "give a file made by 'heddle voxelize'", {.path = path});
     }
-    if (meta.at(kFormatKey) != std::to_string(kFormatVersion)) {
+    const std::string& format = meta.at(kFormatKey);
+    if (format != std::to_string(kPlainFormat) && format != std::to_string(kPlacedFormat)) {
         throw Error(ErrorCode::Unsupported,
-                    str("format version ", meta.at(kFormatKey), " (allowed: ", kFormatVersion, ")"),
+                    str("format version ", format, " (allowed: ", kPlainFormat, " and ",
+                        kPlacedFormat, ")"),
                     "use the heddle that wrote it", {.path = path});
     }
     for (const char* name : {kLevelsKey, kInfoKey, kMaterialsKey, kYarnsKey}) {
@@ -81,6 +83,7 @@ VoxelFields find_fields(const std::string& path, const VdbContents& file) {
     fields.surface = has(GridKind::Surface);
     fields.tangents = has(GridKind::Aniso);
     fields.correlation = has(GridKind::Correlation);
+    fields.slabs = has(GridKind::Slab);
     fields.masks = any("columns_") || any("sums_");
     const bool four = has(GridKind::Footprint), eight = any("footprint_");
     if (four && eight) fail(path, "footprints of 4 and of 8 cells (allowed: one kind)");

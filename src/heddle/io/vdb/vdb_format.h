@@ -5,8 +5,11 @@
 
 namespace heddle {
 
-inline constexpr std::int32_t kFormatVersion = 2; ///< the version of docs/format.md
-inline constexpr std::size_t kMaxLevels = 28;     ///< 8 x 2^27 subvoxels still fit an int32
+// The versions of docs/format.md
+inline constexpr std::int32_t kPlainFormat = 2;
+inline constexpr std::int32_t kPlacedFormat = 3; ///< voxels know where in them matter is
+
+inline constexpr std::size_t kMaxLevels = 28; ///< 8 x 2^27 subvoxels still fit an int32
 
 // File-level metadata keys
 inline constexpr const char* kFormatKey = "heddle_format";       ///< int32

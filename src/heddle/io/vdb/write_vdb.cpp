@@ -255,8 +255,10 @@ openvdb::MetaMap make_metadata(std::span<const LevelToWrite> levels) {
         counts.push_back({found.voxel_count, found.lobe_count, found.box.lo, found.box.hi});
     }
     const InfoJson json = to_json(levels[0].info(), counts);
+    const VoxelFields& has = levels[0].info().fields;
+    const bool placed = has.slabs;
     openvdb::MetaMap metadata;
-    metadata.insertMeta(kFormatKey, openvdb::Int32Metadata(kFormatVersion));
+    metadata.insertMeta(kFormatKey, openvdb::Int32Metadata(placed ? kPlacedFormat : kPlainFormat));
     metadata.insertMeta(kLevelsKey, openvdb::Int32Metadata(static_cast<int>(levels.size())));
     metadata.insertMeta(kInfoKey, openvdb::StringMetadata(json.info));
     metadata.insertMeta(kMaterialsKey, openvdb::StringMetadata(json.materials));
