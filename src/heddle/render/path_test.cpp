@@ -1,5 +1,5 @@
 #include <heddle/render/path.h>
-#include <heddle/render/volume/test_volume.h>
+#include <heddle/render/volume/test_sheet.h>
 
 #include <gtest/gtest.h>
 
@@ -147,6 +147,53 @@ public:
 private:
     ScatterMaterial material_;
 };
+
+TEST(TracePath, ProbeSphere) {
+    const double d = 3.14159265 / 180;
+    for (const double R : {20.0, 6.0, 3.0, 1.6}) {
+        const Vec3d c{0.31, 0.77, 0.13};
+        ScatterMaterial m = white(ScatterModel::Surface);
+        m.albedo = {0.8f, 0.8f, 0.8f};
+        m.roughness = 1.0f;
+        PathScene volume;
+        volume.volumes.push_back(
+            VolumeInstance({sheet_level(sphere_at(c, R), static_cast<int>(R) + 2, 0)}, {}, {0}));
+        volume.materials = {m};
+        PathScene traced;
+        traced.materials = {m};
+        traced.surfaces = std::make_shared<Ball>(m);
+        for (const double angle : {0.0, 20.0, 40.0, 60.0, 80.0, 100.0, 130.0, 160.0}) {
+            Light sun;
+            sun.kind = LightKind::Directional;
+            sun.direction = to_float(Vec3d{-std::sin(angle * d), 0, -std::cos(angle * d)});
+            volume.lights = traced.lights = LightSet({sun}, 5.0);
+            std::printf("R %4.1f angle %3.0f ", R, angle);
+            for (const Transport t : {Transport::Sheet, Transport::Product}) {
+                MeanOf a, b, a1;
+                PathOptions options;
+                options.transport = t;
+                options.level = 0;
+                for (int i = 0; i < 20000; ++i) {
+                    PathSampler sampler(1, static_cast<std::uint64_t>(i), 0),
+                        other(1, static_cast<std::uint64_t>(i), 0);
+                    StreamRandom random{static_cast<std::uint64_t>(i) * 977};
+                    const Vec3d o{2.4 * (double)random.uniform() - 1.2,
+                                  2.4 * (double)random.uniform() - 1.2, 3};
+                    b.add((double)trace_path(traced, options, ray_along(o, {0, 0, -1}), other)
+                              .radiance.y);
+                    const Ray ray = ray_along(c + o * R, {0, 0, -1});
+                    options.max_depth = 64;
+                    a.add((double)trace_path(volume, options, ray, sampler).radiance.y);
+                    options.max_depth = 1;
+                    a1.add((double)trace_path(volume, options, ray, sampler).radiance.y);
+                }
+                std::printf(" %d: %.3f +- %.3f (depth 1 %.3f)", (int)t, a.mean() / b.mean(),
+                            a.error() / b.mean(), a1.mean() / b.mean());
+            }
+            std::printf("\n");
+        }
+    }
+}
 
 TEST(TracePath, WhiteSurfacesVanishInAWhiteWorldAmongVolumes) {
     PathScene scene = scene_of(white(ScatterModel::LambertFiber), MaterialKind::Fiber);

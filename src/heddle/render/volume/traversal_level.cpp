@@ -108,6 +108,7 @@ void TraversalLevel::append(const VoxelBlock& block,
     append_to(maps_, block.maps);
     append_to(tangents_, block.tangents);
     if (fibers_only_) append_to(cells_, block.occupancy);
+    if (!block.slabs.empty()) append_sheets(block, first_voxel);
 }
 
 std::int64_t TraversalLevel::next_voxel(Vec3i at, int axis) const {
@@ -198,9 +199,26 @@ void TraversalLevel::fit_cells(const std::vector<Vec3i>& origins,
     });
 }
 
+void TraversalLevel::append_sheets(const VoxelBlock& block, std::size_t first_voxel) {
+    std::size_t lobe = 0;
+    for (std::size_t v = 0; v < block.slabs.size(); ++v) {
+        const std::span<const Lobe> lobes(&block.lobes[lobe], block.lobe_count[v]);
+        lobe += block.lobe_count[v];
+        const bool fiber = info_.materials[lobes.front().material].kind == MaterialKind::Fiber;
+        if (fiber) {
+            sheets_.push_back({{}, {}, 0, voxels_[first_voxel + v].depth});
+            continue;
+        }
+        const Coverage& c = block.coverage[v];
+        const auto share = [](std::uint16_t x) { return static_cast<double>(x) / 65535.0; };
+        sheets_.push_back(make_sheet(
+            info_.lattice, {block.slabs[v], lobes, {share(c.x), share(c.y), share(c.z)}}));
+    }
+}
+
 std::int64_t TraversalLevel::byte_count() const {
     return table_.byte_count() + bytes_of(leaves_) + bytes_of(voxels_) + bytes_of(lobes_) +
-           bytes_of(maps_) + bytes_of(tangents_) + bytes_of(cells_);
+           bytes_of(maps_) + bytes_of(tangents_) + bytes_of(cells_) + bytes_of(sheets_);
 }
 
 } // namespace heddle

@@ -4,6 +4,7 @@
 #include <heddle/leaf_table/leaf_table.h>
 #include <heddle/leaf_table/ranked_mask.h>
 #include <heddle/render/volume/cell_extinction.h>
+#include <heddle/render/volume/sheet_voxel.h>
 #include <heddle/voxel/index_box.h>
 #include <heddle/voxel/voxel_level.h>
 
@@ -104,6 +105,11 @@ public:
     }
     /// Returns true if all materials are of fibers.
     [[nodiscard]] bool fibers_only() const { return fibers_only_; }
+    [[nodiscard]] bool has_sheets() const { return !sheets_.empty(); }
+    /// @param v  a voxel of a level that has sheets
+    [[nodiscard]] const SheetVoxel& sheet(std::int64_t v) const {
+        return sheets_[static_cast<std::size_t>(v)];
+    }
     [[nodiscard]] std::int64_t byte_count() const;
 
 private:
@@ -119,6 +125,7 @@ private:
     void find_crowding(const std::vector<std::array<float, 3>>& extinction);
     /// Returns the number of the voxel after the one at `at` along an axis; -1 if there is none.
     [[nodiscard]] std::int64_t next_voxel(Vec3i at, int axis) const;
+    void append_sheets(const VoxelBlock& block, std::size_t first_voxel);
 
     VoxelLevelInfo info_;
     bool fibers_only_ = true;
@@ -132,6 +139,7 @@ private:
     std::vector<LobeMaps> maps_;
     std::vector<PackedSggx> tangents_;
     std::vector<std::uint64_t> cells_;
+    std::vector<SheetVoxel> sheets_;
 };
 
 } // namespace heddle
