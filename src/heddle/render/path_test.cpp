@@ -97,6 +97,18 @@ TEST(TracePath, WhiteThingsVanishInAWhiteWorld) {
     }
 }
 
+TEST(TracePath, FibersWithCellsVanishTooInAWhiteWorld) {
+    for (const ScatterModel model : {ScatterModel::LambertFiber, ScatterModel::LobeFiber}) {
+        PathScene scene = scene_of(white(model), MaterialKind::Fiber);
+        StreamRandom random{5};
+        const auto level = level_with_cells(
+            cloud(), 0.02f, [&](std::size_t) { return random.next() | 1; }, 0, 0.3);
+        EXPECT_GT(level->crowding(), 1.5f); // bundles shade themselves
+        scene.volumes = {{{level}, {}, {0}}};
+        expect_furnace(scene, 2e-3);
+    }
+}
+
 TEST(TracePath, RouletteKeepsTheMean) {
     PathOptions options;
     options.max_depth = 3000;

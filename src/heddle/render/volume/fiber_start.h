@@ -52,7 +52,7 @@ public:
         rate_ = std::sqrt(1.0f - back * back) / width;
         free_ = start.free;
         const float lit = 0.5f * (1.0f + std::clamp(start.cosine, -1.0f, 1.0f));
-        own_depth_ = -std::log(1.0f - (1.0f - 1.0f / level.crowding()) * (1.0f - lit));
+        own_depth_ = -std::log(lit + (1.0f - lit) * std::exp(1.0f - level.crowding()));
         const Vec3d h = level.info().lattice.voxel_size;
         const auto cell = static_cast<float>(std::cbrt(h.x * h.y * h.z)) / kCells;
         const auto speed = static_cast<float>(length(ray.direction * h));
