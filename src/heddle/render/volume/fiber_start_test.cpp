@@ -54,7 +54,7 @@ TEST(FiberStart, ShadeGrowsWithTheAngleToTheWayBack) {
         EXPECT_LE(depth, 3.0f);
         last = depth;
     }
-    EXPECT_GT(last, 2.8f);
+    EXPECT_GT(last, 2.6f);
 }
 
 TEST(FiberStart, TheFiberDoesNotStopItsOwnRay) {
