@@ -76,8 +76,8 @@ ScatterMaterial white(ScatterModel model) {
     return m;
 }
 
-void expect_furnace(const PathScene& scene, double tolerance) {
-    const Seen seen = look(scene, patient(), 3000);
+void expect_furnace(const PathScene& scene, double tolerance, int paths = 3000) {
+    const Seen seen = look(scene, patient(), paths);
     EXPECT_LT(seen.transmittance.mean(), 0.6); // there is something in it
     EXPECT_LT(seen.radiance.error(), 0.02);
     EXPECT_NEAR(seen.radiance.mean(), 1.0, 4.0 * seen.radiance.error() + tolerance);
@@ -94,6 +94,18 @@ TEST(TracePath, WhiteThingsVanishInAWhiteWorld) {
                                      ScatterModel::MicroflakeDiffuse, ScatterModel::Surface}) {
         SCOPED_TRACE(static_cast<int>(model));
         expect_furnace(scene_of(white(model), MaterialKind::Surface), 2e-3);
+    }
+}
+
+TEST(TracePath, FibersWithCellsVanishTooInAWhiteWorld) {
+    for (const ScatterModel model : {ScatterModel::LambertFiber, ScatterModel::LobeFiber}) {
+        PathScene scene = scene_of(white(model), MaterialKind::Fiber);
+        StreamRandom random{5};
+        const auto level = level_with_cells(
+            cloud(), 0.02f, [&](std::size_t) { return random.next() | 1; }, 0, 0.3);
+        EXPECT_GT(level->crowding(), 1.5f); // bundles shade themselves
+        scene.volumes = {{{level}, {}, {0}}};
+        expect_furnace(scene, 2e-3, 12000);
     }
 }
 

@@ -36,7 +36,8 @@ namespace heddle {
 ///   blocked that way too, so it is not there. It is as wide as a blocker: a fiber, or more where
 ///   fibers are behind fibers (TraversalLevel::crowding).
 /// - The fiber that the ray leaves does not stop it: how it shades itself is a part of how it
-///   scatters. In the cell where the ray starts, its extinction is left out.
+///   scatters. For one radius the ray is in the fiber. In the rest of the cell where it starts, the
+///   extinction of one fiber is left out.
 /// - A blocker of many fibers shades itself: of an opaque ball that is seen, the share
 ///   (1 + cosine) / 2 is lit.
 class StartShade {
@@ -51,8 +52,9 @@ public:
         const float width = 2.0f * start.radius * level.crowding();
         rate_ = std::sqrt(1.0f - back * back) / width;
         free_ = start.free;
+        radius_ = start.radius;
         const float lit = 0.5f * (1.0f + std::clamp(start.cosine, -1.0f, 1.0f));
-        own_depth_ = -std::log(1.0f - (1.0f - 1.0f / level.crowding()) * (1.0f - lit));
+        own_depth_ = -std::log(lit + (1.0f - lit) * std::exp(1.0f - level.crowding()));
         const Vec3d h = level.info().lattice.voxel_size;
         const auto cell = static_cast<float>(std::cbrt(h.x * h.y * h.z)) / kCells;
         const auto speed = static_cast<float>(length(ray.direction * h));
@@ -62,6 +64,7 @@ public:
 
     /// Returns the optical depth of a part of the ray in set cells.
     [[nodiscard]] float depth_of(float t_in, float t_out, float extinction) const {
+        t_in = std::max(t_in, std::min(radius_, t_out));
         const float middle = std::clamp(cell_end_, t_in, t_out);
         float depth = extinction * (unshared(t_out) - unshared(middle));
         if (middle > t_in) {
@@ -97,6 +100,7 @@ private:
     static constexpr float kLeast = 1e-6f;
     float rate_ = 0.0f; ///< growth of the distance to the way back, in blockers per unit of t
     float free_ = 0.0f;
+    float radius_ = 0.0f; ///< of the fiber, within which the ray starts
     float own_depth_ = 0.0f;
     float own_extinction_ = 0.0f;
     float cell_end_ = 0.0f;

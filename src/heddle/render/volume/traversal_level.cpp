@@ -27,12 +27,13 @@ float coverage_of(std::uint16_t depth) {
     return -std::expm1(-kDepthUnit * static_cast<float>(depth));
 }
 
-/// Returns the volume of a long cylinder as a share of the cubes of a lattice that it touches.
-/// Their section is the cylinder's disc widened by the projection of a cube, which has on average
-/// the area 1.5 and the perimeter 1.5 pi for edges of 1.                       [Steiner, Cauchy]
-double share_of_touched(double radius, double cube) {
+/// Returns the volume of long cylinders as a share of the subvoxels that are hit, over all
+/// directions: in each column along z that a cylinder covers, it enters one subvoxel more than it
+/// fills.
+/// @param edge  of a subvoxel
+double share_of_hit(double radius, double edge) {
     const double disc = std::numbers::pi * radius * radius;
-    return disc / (disc + 1.5 * std::numbers::pi * radius * cube + 1.5 * cube * cube);
+    return disc / (disc + 0.5 * std::numbers::pi * radius * edge);
 }
 
 /// Calls f(voxel, index) for the voxels of a leaf. @param origin  of the leaf
@@ -138,18 +139,20 @@ void TraversalLevel::find_crowding(const std::vector<std::array<float, 3>>& exti
     }
     if (fibers == 0.0) return;
     radius /= fibers;
-    double depth = 0.0; // sum over the voxels of the mean optical depth of their volume
+    double blocked = 0.0; // sum over the cells of their coverage, in faces of a voxel
     for (std::size_t v = 0; v < voxels_.size(); ++v) {
-        const float sum = extinction[v][0] + extinction[v][1] + extinction[v][2];
-        depth += static_cast<double>(sum) * std::popcount(cells_[v]) / (3.0 * 64.0);
+        for (const float along : extinction[v]) {
+            blocked += -std::expm1(static_cast<double>(along) / -kCells) *
+                       std::popcount(cells_[v]) / (3.0 * kCells * kCells);
+        }
     }
     const Vec3d h = info_.lattice.voxel_size;
     const double edge = std::cbrt(h.x * h.y * h.z);
-    const double touched = static_cast<double>(occupancy_) / 65535.0 *
-                           share_of_touched(radius, edge / info_.lattice.subvoxels);
-    if (!(depth > 0.0)) return;
-    // Cylinders of diameter D and volume v have the extinction 4 v / (pi D).
-    const double diameter = 4.0 * touched * edge / (std::numbers::pi * depth);
+    const double volume = static_cast<double>(occupancy_) / 65535.0 *
+                          share_of_hit(radius, edge / info_.lattice.subvoxels);
+    if (!(blocked > 0.0)) return;
+    // Cylinders of diameter D and volume v cover 4 v / (pi D), if they do not cover each other.
+    const double diameter = 4.0 * volume * edge / (std::numbers::pi * blocked);
     crowding_ = static_cast<float>(std::max(1.0, diameter / (2.0 * radius)));
 }
 

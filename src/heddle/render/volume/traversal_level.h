@@ -121,7 +121,8 @@ private:
     /// @param correlation  VoxelBlock::correlation of all voxels; may be empty
     void fit_cells(const std::vector<Vec3i>& origins,
                    const std::vector<std::array<std::uint8_t, 3>>& correlation);
-    /// Sets crowding_. @param extinction  of the cells, per voxel and axis
+    /// Sets crowding_.
+    /// @param extinction  of the cells, per voxel and axis
     void find_crowding(const std::vector<std::array<float, 3>>& extinction);
     /// Returns the number of the voxel after the one at `at` along an axis; -1 if there is none.
     [[nodiscard]] std::int64_t next_voxel(Vec3i at, int axis) const;
