@@ -166,8 +166,8 @@ private:
     }
 
     /// Returns a ray that starts at an event, offset from its surface.
-    [[nodiscard]] Ray
-    leave(const Event& event, Vec3d at, Vec3f wi, Vec3f direction, float width, float spread) const {
+    [[nodiscard]] Ray leave(
+        const Event& event, Vec3d at, Vec3f wi, Vec3f direction, float width, float spread) const {
         SheetStart start = event.sheet;
         if (dot(direction, event.scatterer.axis) < 0.0f) start.side = -start.side;
         const float side = dot(direction, event.normal) < 0.0f ? -event.offset : event.offset;

@@ -16,21 +16,21 @@ namespace heddle {
 /// The sheet that a ray met last. In the next voxel it tells on which side of that voxel's sheet
 /// the ray is, if both are parts of one surface.
 struct LastSheet {
-    Vec3f normal{};        ///< of its slab
-    float height = 0.0f;   ///< of the ray above the sheet at t
-    float slope = 0.0f;    ///< growth of the height per unit of t
-    float t = 0.0f;        ///< where the ray left its voxel
+    Vec3f normal{};         ///< of its slab
+    float height = 0.0f;    ///< of the ray above the sheet at t
+    float slope = 0.0f;     ///< growth of the height per unit of t
+    float t = 0.0f;         ///< where the ray left its voxel
     float thickness = 0.0f; ///< of its slab, and of the rounding
-    int side = 0;          ///< of the sheet that the ray is on: 1 above, -1 below; 0: no last sheet
+    int side = 0; ///< of the sheet that the ray is on: 1 above, -1 below; 0: no last sheet
 };
 
 namespace detail {
 
 /// A voxel's sheet in the object's space, heights from the voxel's center.
 struct PlacedSheet {
-    Vec3f normal;   ///< unit
-    Vec3f gradient; ///< change of the height along each edge of the voxel
-    float at;       ///< height of the sheet
+    Vec3f normal;    ///< unit
+    Vec3f gradient;  ///< change of the height along each edge of the voxel
+    float at;        ///< height of the sheet
     float thickness; ///< of the slab, and of the rounding
 };
 
@@ -42,11 +42,11 @@ struct PlacedSheet {
                        static_cast<float>(voxel.normal[2])} *
                  (1.0f / 32767.0f);
     out.gradient = out.normal * edges;
-    const float half = 0.5f * (std::fabs(out.gradient.x) + std::fabs(out.gradient.y) +
-                               std::fabs(out.gradient.z));
+    const float half =
+        0.5f * (std::fabs(out.gradient.x) + std::fabs(out.gradient.y) + std::fabs(out.gradient.z));
     const float step = half * (2.0f / 255.0f);
-    const auto lo = static_cast<float>(voxel.slab.lo);
-    const auto hi = static_cast<float>(voxel.slab.hi);
+    const auto lo = static_cast<float>(voxel.lo);
+    const auto hi = static_cast<float>(voxel.hi);
     out.at = (lo + share * (hi - lo)) * step - half;
     out.thickness = (hi - lo + 1.0f) * step;
     return out;
@@ -99,7 +99,8 @@ public:
             if (!pass_rest(step, voxel, t, step.t_out)) return false;
         }
         const bool starts = step.voxel == start_ && last.side != 0;
-        last = {sheet.normal, out, slope, step.t_out, sheet.thickness, starts ? last.side : side_out};
+        last = {
+            sheet.normal, out, slope, step.t_out, sheet.thickness, starts ? last.side : side_out};
         if (crosses) last.side = 0; // through a hole: neighbours may have the rest of the surface
         return true;
     }
@@ -108,10 +109,10 @@ private:
     [[nodiscard]] bool
     pass_rest(const VoxelStep& step, const SheetVoxel& voxel, float t_in, float t_out) {
         if ((voxel.rest[0] | voxel.rest[1] | voxel.rest[2]) == 0) return true;
-        const Vec3f depth = Vec3f{static_cast<float>(voxel.rest[0]),
-                                  static_cast<float>(voxel.rest[1]),
-                                  static_cast<float>(voxel.rest[2])} *
-                            kDepthUnit;
+        const Vec3f depth =
+            Vec3f{static_cast<float>(voxel.rest[0]), static_cast<float>(voxel.rest[1]),
+                  static_cast<float>(voxel.rest[2])} *
+            kDepthUnit;
         return passage_.pass_alone({step.leaf, step.voxel, step.at, t_in, t_out},
                                    combine_depths(depth * direction_ * (t_out - t_in)));
     }
@@ -144,8 +145,7 @@ private:
     }
     /// Returns where the ray crosses to the other side: at the face where it enters if the sheets
     /// of both voxels do not meet there.
-    [[nodiscard]] static float
-    crossing(const VoxelStep& step, float in, float slope, int side) {
+    [[nodiscard]] static float crossing(const VoxelStep& step, float in, float slope, int side) {
         if ((in < 0.0f ? -1 : 1) != side) return step.t_in;
         return std::clamp(step.t_in - in / slope, step.t_in, step.t_out);
     }

@@ -27,9 +27,8 @@ struct SurfacePoint {
 using CrossSurface = std::function<std::vector<SurfacePoint>(int axis, Vec3d line)>;
 
 /// A plane through `at`, where `has` says so.
-inline CrossSurface plane_at(Vec3d at,
-                             Vec3d normal,
-                             const std::function<bool(Vec3d)>& has = [](Vec3d) { return true; }) {
+inline CrossSurface plane_at(
+    Vec3d at, Vec3d normal, const std::function<bool(Vec3d)>& has = [](Vec3d) { return true; }) {
     const Vec3d n = normalize(normal);
     return [=](int axis, Vec3d line) -> std::vector<SurfacePoint> {
         if (std::fabs(n[axis]) < 1e-9) return {};
@@ -93,8 +92,8 @@ sheet_level(const CrossSurface& surface, int extent, int level = 0, bool slabs =
     std::map<std::tuple<int, int, int>, PlaneSlab> slab_of;
     for (auto& [at, s] : sums) {
         const auto k = static_cast<float>(1.0 / s.weight);
-        for (float* m : {&s.moment.xx, &s.moment.yy, &s.moment.zz, &s.moment.xy, &s.moment.xz,
-                         &s.moment.yz}) {
+        for (float* m :
+             {&s.moment.xx, &s.moment.yy, &s.moment.zz, &s.moment.xy, &s.moment.xz, &s.moment.yz}) {
             *m *= k;
         }
         const PackedSggx lobe = pack(fit_sggx(s.moment));
@@ -102,7 +101,8 @@ sheet_level(const CrossSurface& surface, int extent, int level = 0, bool slabs =
             return share16(static_cast<double>(s.columns[a].size()) / (n * n));
         };
         voxels[at] = {{cover(0), cover(1), cover(2), cover(0)}, {{lobe, 255, 0}}};
-        const Vec3d gradient = slab_gradient(slab_normal(lobe), {1, 1, 1});
+        const PackedNormal normal = pack_normal(to_double(principal_direction(s.moment)));
+        const Vec3d gradient = slab_gradient(unpack_normal(normal), {1, 1, 1});
         double lo = 1e9, hi = -1e9;
         const auto [x, y, z] = at;
         for (const Vec3d& p : s.points) {
@@ -110,7 +110,7 @@ sheet_level(const CrossSurface& surface, int extent, int level = 0, bool slabs =
             lo = std::min(lo, v);
             hi = std::max(hi, v);
         }
-        slab_of[at] = {round_slab_value(lo), round_slab_value(hi)};
+        slab_of[at] = {round_slab_value(lo), round_slab_value(hi), normal};
     }
     MemoryLevel grid;
     grid.info().lattice = {{1, 1, 1}, n};
@@ -123,10 +123,11 @@ sheet_level(const CrossSurface& surface, int extent, int level = 0, bool slabs =
         if (!slabs) continue;
         for (const VoxelLeaf& leaf : block.leaves) {
             for (int bit = 0; bit < 512; ++bit) {
-                if ((leaf.active[static_cast<std::size_t>(bit >> 6)] >> (bit & 63) & 1) == 0) continue;
-                block.slabs.push_back(slab_of.at({leaf.origin.x + (bit >> 6),
-                                                  leaf.origin.y + (bit >> 3 & 7),
-                                                  leaf.origin.z + (bit & 7)}));
+                if ((leaf.active[static_cast<std::size_t>(bit >> 6)] >> (bit & 63) & 1) == 0)
+                    continue;
+                block.slabs.push_back(
+                    slab_of.at({leaf.origin.x + (bit >> 6), leaf.origin.y + (bit >> 3 & 7),
+                                leaf.origin.z + (bit & 7)}));
             }
         }
     }

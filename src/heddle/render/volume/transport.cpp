@@ -8,8 +8,8 @@
 namespace heddle {
 
 const std::vector<std::string>& transport_names() {
-    static const std::vector<std::string> names{"auto", "product", "threshold", "footprint", "sheet",
-                                                "flakes"};
+    static const std::vector<std::string> names{"auto",      "product", "threshold",
+                                                "footprint", "sheet",   "flakes"};
     return names;
 }
 

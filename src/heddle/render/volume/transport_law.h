@@ -241,8 +241,12 @@ void with_law(Transport asked,
               RayPassage& passage,
               const Walk& walk) {
     switch (resolve(asked, level)) {
-    case Transport::Threshold: walk(RunLaw<CorrelatedVoxels>(level, ray, from.bulk, passage)); return;
-    case Transport::Footprint: walk(RunLaw<FootprintVoxels>(level, ray, from.bulk, passage)); return;
+    case Transport::Threshold:
+        walk(RunLaw<CorrelatedVoxels>(level, ray, from.bulk, passage));
+        return;
+    case Transport::Footprint:
+        walk(RunLaw<FootprintVoxels>(level, ray, from.bulk, passage));
+        return;
     case Transport::Sheet:
         walk(SheetLaw<RayPassage>(level, ray, from.sheet, from.start, passage));
         return;
