@@ -19,15 +19,19 @@ struct BatchSlabs {
     const std::uint32_t* first_lobe;
     const DirectionSums* lobes;
     const OpenSlab* slabs;
-    std::uint32_t* reach; ///< 2 per voxel
+    std::uint64_t* moment; ///< 6 per voxel: of normals by area
+    std::uint32_t* reach;  ///< 2 per voxel
     std::size_t voxel_count;
     int max_lobes;
+    Vec3d faces; ///< slab_faces()
 };
 
 /// The slabs of one block for the triangles of one material (slab_op.h): the counterpart of
 /// SlabFitter::Slabs.
 class DenseSlabs {
 public:
+    static constexpr bool kMeasuresAreas = false;
+
     HEDDLE_HD DenseSlabs(const BatchSlabs& of,
                          const BatchBlock& block,
                          std::uint32_t slot,
@@ -52,6 +56,9 @@ public:
         executor::atomic_max(reach, static_cast<std::uint32_t>(256 - lo));
         executor::atomic_max(reach + 1, static_cast<std::uint32_t>(1 + hi));
     }
+
+protected:
+    const BatchSlabs& of_;
 
 private:
     [[nodiscard]] HEDDLE_HD std::size_t
@@ -78,15 +85,31 @@ private:
         return true;
     }
 
-    const BatchSlabs& of_;
     std::uint32_t slot_;
     std::uint32_t material_;
     Vec3i corner_;            ///< of the block's range in its cube of 32^3 voxels
     std::size_t begin_, end_; ///< the block's voxels
 };
 
-/// Widens the slabs of one block by one triangle.
-template <SurfaceKind Kind>
+/// The same for the normals: the counterpart of SlabFitter::Areas.
+class DenseAreas : public DenseSlabs {
+public:
+    static constexpr bool kMeasuresAreas = true;
+    using DenseSlabs::DenseSlabs;
+
+    HEDDLE_HD void add_area(int voxel, Vec3d area) const {
+        std::int64_t moment[6] = {};
+        add_area_moment(area * of_.faces, moment);
+        std::uint64_t* const to = of_.moment + 6 * static_cast<std::size_t>(voxel);
+        for (int i = 0; i < 6; ++i) {
+            executor::atomic_add(to + i, static_cast<std::uint64_t>(moment[i]));
+        }
+    }
+};
+
+/// Adds one triangle to the normals or to the slabs of one block.
+/// @tparam Slabs  DenseAreas or DenseSlabs
+template <SurfaceKind Kind, typename Slabs>
 struct WidenSlabsOp {
     SurfaceView surfaces;
     int subvoxels;
@@ -97,9 +120,23 @@ struct WidenSlabsOp {
     HEDDLE_HD void operator()(std::size_t i) const {
         const BatchBlock& block = blocks[pairs[i].slot];
         const TriangleId at = surfaces.place(triangle_of(pairs[i].primitive));
-        const DenseSlabs of(slabs, block, pairs[i].slot, surfaces.meshes[at.mesh].material);
+        const Slabs of(slabs, block, pairs[i].slot, surfaces.meshes[at.mesh].material);
         widen_slabs<Kind>(surfaces, at, subvoxels, block.lo, block.lo + block.size, of,
                           NoScratch{});
+    }
+};
+
+/// Sets the normal of each voxel's slab after the areas are added.
+struct TurnSlabsOp {
+    const std::uint64_t* moment;
+    Vec3d edges;
+    OpenSlab* slabs;
+
+    HEDDLE_HD void operator()(std::size_t v) const {
+        if (!slabs[v].there) return;
+        std::int64_t sums[6];
+        for (int i = 0; i < 6; ++i) sums[i] = static_cast<std::int64_t>(moment[6 * v + i]);
+        slabs[v] = OpenSlab({0, 255, main_normal(sums)}, edges);
     }
 };
 
@@ -110,8 +147,8 @@ struct CloseSlabsOp {
 
     HEDDLE_HD void operator()(std::size_t v) const {
         if (reach[2 * v] == 0) return;
-        slabs[v].planes = {static_cast<std::uint8_t>(256 - reach[2 * v]),
-                           static_cast<std::uint8_t>(reach[2 * v + 1] - 1)};
+        slabs[v].planes.lo = static_cast<std::uint8_t>(256 - reach[2 * v]);
+        slabs[v].planes.hi = static_cast<std::uint8_t>(reach[2 * v + 1] - 1);
     }
 };
 

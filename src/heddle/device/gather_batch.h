@@ -140,16 +140,29 @@ void gather_triangles(Exec& exec,
                   GatherTriangleOp<Kind>{scene.surfaces, scene.units, sums, of_kind.data()});
 }
 
-/// Widens the slabs of a batch's voxels by its triangles of one kind.
-template <SurfaceKind Kind, typename Exec>
+/// Adds a batch's triangles of one kind to the normals or to the slabs of its voxels.
+/// @tparam Slabs  DenseAreas or DenseSlabs
+template <typename Slabs, SurfaceKind Kind, typename Exec>
+void widen_slabs_of(Exec& exec,
+                    const DeviceGeometry& scene,
+                    const BatchBlock* blocks,
+                    const BatchPairs& pairs,
+                    const BatchSlabs& slabs) {
+    const executor::Array<BlockPair>& of_kind = pairs.of[number_of(Kind)];
+    exec.for_each(of_kind.size(), WidenSlabsOp<Kind, Slabs>{scene.surfaces, scene.units.n, blocks,
+                                                            of_kind.data(), slabs});
+}
+
+/// The same for all kinds.
+template <typename Slabs, typename Exec>
 void widen_slabs(Exec& exec,
                  const DeviceGeometry& scene,
                  const BatchBlock* blocks,
                  const BatchPairs& pairs,
                  const BatchSlabs& slabs) {
-    const executor::Array<BlockPair>& of_kind = pairs.of[number_of(Kind)];
-    exec.for_each(of_kind.size(),
-                  WidenSlabsOp<Kind>{scene.surfaces, scene.units.n, blocks, of_kind.data(), slabs});
+    widen_slabs_of<Slabs, SurfaceKind::Constant>(exec, scene, blocks, pairs, slabs);
+    widen_slabs_of<Slabs, SurfaceKind::Shaded>(exec, scene, blocks, pairs, slabs);
+    widen_slabs_of<Slabs, SurfaceKind::Displaced>(exec, scene, blocks, pairs, slabs);
 }
 
 /// Fits the slabs of level 0 of a batch, as SlabFitter does.
@@ -163,16 +176,22 @@ void fit_slabs(Exec& exec,
     exec.set_phase("slabs");
     const std::size_t n = level.voxel_count;
     level.slabs = exec.template make<OpenSlab>(n);
+    const auto moment = exec.template make_zero<std::uint64_t>(6 * n);
     const auto reach = exec.template make_zero<std::uint32_t>(2 * n);
     exec.for_each(
         n, OpenSlabsOp{scene.fit, level.first_lobe.data(), level.lobes.data(), level.slabs.data()});
-    const BatchSlabs slabs{level.key.data(),   level.first_lobe.data(),
-                           level.lobes.data(), level.slabs.data(),
-                           reach.data(),       n,
-                           scene.fit.max_lobes};
-    widen_slabs<SurfaceKind::Constant>(exec, scene, blocks, pairs, slabs);
-    widen_slabs<SurfaceKind::Shaded>(exec, scene, blocks, pairs, slabs);
-    widen_slabs<SurfaceKind::Displaced>(exec, scene, blocks, pairs, slabs);
+    const BatchSlabs slabs{level.key.data(),
+                           level.first_lobe.data(),
+                           level.lobes.data(),
+                           level.slabs.data(),
+                           moment.data(),
+                           reach.data(),
+                           n,
+                           scene.fit.max_lobes,
+                           slab_faces(scene.fit.voxel_size)};
+    widen_slabs<DenseAreas>(exec, scene, blocks, pairs, slabs);
+    exec.for_each(n, TurnSlabsOp{moment.data(), scene.fit.voxel_size, level.slabs.data()});
+    widen_slabs<DenseSlabs>(exec, scene, blocks, pairs, slabs);
     exec.for_each(n, CloseSlabsOp{reach.data(), level.slabs.data()});
 }
 

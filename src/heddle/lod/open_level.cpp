@@ -191,14 +191,17 @@ void join_slabs(OpenVoxel& parent,
                 const LevelOptions& options,
                 const std::array<const OpenVoxel*, 8>& child) {
     if (!options.fields.slabs || !options.normals.has(first_lobe.material)) return;
-    parent.slab =
-        OpenSlab({}, fit_packed(first_lobe.moment, first_lobe.weight), options.lattice.voxel_size);
+    ParentNormal main;
+    for (const OpenVoxel* of : child) {
+        if (of != nullptr && of->slab.there) main.add(slab_normal(of->slab.planes), of->hits);
+    }
+    parent.slab = OpenSlab({0, 255, main.normal()}, options.lattice.voxel_size);
     ParentSlab joined{parent.slab.gradient};
     for (int c = 0; c < 8; ++c) {
         const OpenVoxel* const of = child[static_cast<std::size_t>(c)];
         if (of != nullptr && of->slab.there) joined.add(c, of->slab.gradient, of->slab.planes);
     }
-    parent.slab.planes = joined.slab();
+    parent.slab.planes = joined.slab(parent.slab.planes.normal);
 }
 
 void open_block(const VoxelBlock& stored,
@@ -224,7 +227,7 @@ void open_block(const VoxelBlock& stored,
         open_lobes(from, options, out);
         const Lobe& first = from.lobes().front();
         if (options.fields.slabs && options.normals.has(first.material)) {
-            voxel.slab = OpenSlab(from.slab(), first.sggx, options.lattice.voxel_size);
+            voxel.slab = OpenSlab(from.slab(), options.lattice.voxel_size);
         }
         if (rule == CoverageRule::Union) {
             const auto& columns = stored.columns[from.voxel];
@@ -322,7 +325,6 @@ void append_voxel(const OpenLevel& level,
     for (std::size_t i = voxel.first_lobe; i < voxel.first_lobe + voxel.lobe_count; ++i) {
         pool.add(level.lobes[i], options.merge.with_maps ? &level.maps[i] : nullptr);
     }
-    if (voxel.slab.there) fits.remember(pool.sums[0], voxel.slab.first_lobe);
     append_lobes(pool, voxel.order, options.fields, fits, out);
 }
 

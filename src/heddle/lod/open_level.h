@@ -44,16 +44,12 @@ struct LevelOptions {
 struct OpenSlab {
     bool there = false; ///< else the first lobe is of fibers, which have no planes
     PlaneSlab planes;
-    PackedSggx first_lobe; ///< as it is stored
-    Vec3d gradient;        ///< slab_gradient() of it
+    Vec3d gradient; ///< slab_gradient()
 
     OpenSlab() = default;
     /// @param edges  of the voxel, of which only the ratios count
-    HEDDLE_HD OpenSlab(PlaneSlab stored, const PackedSggx& first, Vec3d edges)
-        : there(true),
-          planes(stored),
-          first_lobe(first),
-          gradient(slab_gradient(slab_normal(first), edges)) {}
+    HEDDLE_HD OpenSlab(PlaneSlab stored, Vec3d edges)
+        : there(true), planes(stored), gradient(slab_gradient(slab_normal(stored), edges)) {}
 };
 
 /// A voxel before it is stored, without its columns.

@@ -22,23 +22,12 @@ reduce_by_moments(LobePool& pool, int keep, bool with_maps, float same) {
     return reduce(pool, keep, with_maps, ByMoments{}, same);
 }
 
-RecentFits::Entry& RecentFits::entry_of(const std::int64_t (&moment)[6], std::int64_t weight) {
+PackedSggx RecentFits::fit(const std::int64_t (&moment)[6], std::int64_t weight) {
     std::uint64_t h = static_cast<std::uint64_t>(weight);
     for (const std::int64_t m : moment) {
         h = (h ^ static_cast<std::uint64_t>(m)) * 0x9e3779b97f4a7c15u;
     }
-    return entries_[h >> (64 - kBits)];
-}
-
-void RecentFits::remember(const DirectionSums& lobe, const PackedSggx& fitted) {
-    Entry& entry = entry_of(lobe.moment, lobe.weight);
-    std::copy_n(lobe.moment, 6, entry.moment);
-    entry.weight = lobe.weight;
-    entry.sggx = fitted;
-}
-
-PackedSggx RecentFits::fit(const std::int64_t (&moment)[6], std::int64_t weight) {
-    Entry& entry = entry_of(moment, weight);
+    Entry& entry = entries_[h >> (64 - kBits)];
     if (entry.weight != weight || !std::equal(moment, moment + 6, entry.moment)) {
         std::copy_n(moment, 6, entry.moment);
         entry.weight = weight;

@@ -131,8 +131,6 @@ class RecentFits {
 public:
     /// Returns fit_packed(moment, weight), from the cache if it has it.
     [[nodiscard]] PackedSggx fit(const std::int64_t (&moment)[6], std::int64_t weight);
-    /// Adds a lobe to the cache that was fitted elsewhere.
-    void remember(const DirectionSums& lobe, const PackedSggx& fitted);
 
 private:
     static constexpr int kBits = 8;
@@ -141,8 +139,6 @@ private:
         std::int64_t weight = 0; ///< 0: an empty entry, since lobes have a weight of 1 or more
         PackedSggx sggx;
     };
-    [[nodiscard]] Entry& entry_of(const std::int64_t (&moment)[6], std::int64_t weight);
-
     std::array<Entry, std::size_t{1} << kBits> entries_;
 };
 

@@ -43,6 +43,25 @@ range_between(Vec3d gradient, const PlaneSlab& slab, Vec3d direction) {
     return out;
 }
 
+/// The normal of a parent's slab while it is joined from those of its children, by their areas.
+/// Children are added in the order of their octants.
+struct ParentNormal {
+    double moment[6] = {};
+
+    /// @param hits  occupied subvoxels of the child, which stand for its area
+    HEDDLE_HD void add(Vec3d n, std::int64_t hits) {
+        const auto weight = static_cast<double>(hits);
+        const double products[6] = {n.x * n.x, n.y * n.y, n.z * n.z,
+                                    n.x * n.y, n.x * n.z, n.y * n.z};
+        for (int i = 0; i < 6; ++i) moment[i] += weight * products[i];
+    }
+    [[nodiscard]] HEDDLE_HD PackedNormal normal() const {
+        const auto at = [&](int i) { return static_cast<float>(moment[i]); };
+        return pack_normal(
+            to_double(principal_direction({at(0), at(1), at(2), at(3), at(4), at(5)})));
+    }
+};
+
 /// The slab of a parent while it is joined from those of its children, as they are stored. Each
 /// child is rounded by itself, so their order does not matter.
 struct ParentSlab {
@@ -64,9 +83,10 @@ struct ParentSlab {
         lo = bottom < lo ? bottom : lo;
         hi = top > hi ? top : hi;
     }
-    [[nodiscard]] HEDDLE_HD PlaneSlab slab() const {
+    /// @param normal  of the parent: what the gradient was made from
+    [[nodiscard]] HEDDLE_HD PlaneSlab slab(PackedNormal normal = {}) const {
         if (lo > hi) return {};
-        return {static_cast<std::uint8_t>(lo), static_cast<std::uint8_t>(hi)};
+        return {static_cast<std::uint8_t>(lo), static_cast<std::uint8_t>(hi), normal};
     }
 };
 

@@ -111,7 +111,7 @@ int expect_exact(const Geometry& g, const VoxelLevel& level, const Counts& count
     const double close = length(edges) / 256.0;
     int said = 0;
     for_each_voxel(level, [&](const BlockVoxel& v) {
-        const Vec3d n = slab_normal(v.lobes().front().sggx);
+        const Vec3d n = slab_normal(v.slab());
         const double s = slab_half_extent(n, edges);
         // vertices are moved by up to 1/8192 of a subvoxel, so slivers may leave or enter the voxel
         const auto clip = [&](double grow) {
@@ -151,7 +151,7 @@ TEST(SlabFitter, OnePlaneIsHeldTo1Over256OfTheDiagonal) {
             EXPECT_EQ(said, level->info().voxel_count);
             const double diagonal = length(edges);
             for_each_voxel(*level, [&](const BlockVoxel& at) {
-                const Vec3d n = slab_normal(at.lobes().front().sggx);
+                const Vec3d n = slab_normal(at.slab());
                 const double step = 2.0 * slab_half_extent(n, edges) / 255.0;
                 EXPECT_LT((at.slab().hi - at.slab().lo) * step, diagonal / 50.0) << "it is thin";
             });

@@ -95,8 +95,7 @@ arrays_of(executor::HostExecutor& exec, const Finest& finest, std::size_t begin,
             const Vec3d edges = finest.source->info().lattice.voxel_size;
             const bool surface =
                 finest.source->info().materials[first.material].kind == MaterialKind::Surface;
-            slabs.push_back(surface ? OpenSlab(block.slabs[at.voxel], first.sggx, edges)
-                                    : OpenSlab());
+            slabs.push_back(surface ? OpenSlab(block.slabs[at.voxel], edges) : OpenSlab());
         }
     }
     LevelArrays out;

@@ -64,9 +64,9 @@ build_level_arrays(Exec& exec, LevelArrays below, const FitOptions& options) {
                                      out.lobes.data(), out.maps.data()});
     if (!options.fields.slabs) return out;
     out.slabs = exec.template make<OpenSlab>(count);
-    exec.for_each(count,
-                  JoinSlabsOp{options, first_child.data(), child_mask.data(), below.slabs.data(),
-                              out.first_lobe.data(), out.lobes.data(), out.slabs.data()});
+    exec.for_each(count, JoinSlabsOp{options, first_child.data(), child_mask.data(),
+                                     below.slabs.data(), below.hits.data(), out.first_lobe.data(),
+                                     out.lobes.data(), out.slabs.data()});
     return out;
 }
 

@@ -2,7 +2,6 @@
 
 #include <heddle/lod/open_level.h>
 #include <heddle/voxel/parent_slab.h>
-#include <heddle/voxel/stored_lobe.h>
 #include <heddle/voxelize/block/fit_options.h>
 
 #include <cstddef>
@@ -10,7 +9,7 @@
 
 namespace heddle {
 
-/// Prepares each voxel of level 0 for its slab: the normal of its first lobe as it is stored.
+/// Marks the voxels of level 0 that get a slab.
 struct OpenSlabsOp {
     FitOptions options;
     const std::uint32_t* first_lobe; ///< per voxel
@@ -19,9 +18,8 @@ struct OpenSlabsOp {
 
     HEDDLE_HD void operator()(std::size_t v) const {
         const DirectionSums& first = lobes[first_lobe[v]];
-        slabs[v] = options.normals.has(first.material)
-                       ? OpenSlab({}, fit_packed(first.moment, first.weight), options.voxel_size)
-                       : OpenSlab();
+        slabs[v] = OpenSlab();
+        slabs[v].there = options.normals.has(first.material);
     }
 };
 
@@ -31,6 +29,7 @@ struct JoinSlabsOp {
     const std::uint32_t* first_child;
     const std::uint8_t* child_mask; ///< bit 4 x + 2 y + z per existing child
     const OpenSlab* below;
+    const std::uint32_t* hits;       ///< per child: occupied subvoxels
     const std::uint32_t* first_lobe; ///< per parent
     const DirectionSums* lobes;
     OpenSlab* slabs;
@@ -41,15 +40,23 @@ struct JoinSlabsOp {
             slabs[p] = OpenSlab();
             return;
         }
-        OpenSlab out({}, fit_packed(first.moment, first.weight), options.voxel_size);
-        ParentSlab joined{out.gradient};
+        ParentNormal main;
         std::uint32_t child = first_child[p];
+        for (int octant = 0; octant < 8; ++octant) {
+            if ((child_mask[p] >> octant & 1) == 0) continue;
+            const OpenSlab& of = below[child];
+            if (of.there) main.add(slab_normal(of.planes), hits[child]);
+            ++child;
+        }
+        OpenSlab out({0, 255, main.normal()}, options.voxel_size);
+        ParentSlab joined{out.gradient};
+        child = first_child[p];
         for (int octant = 0; octant < 8; ++octant) {
             if ((child_mask[p] >> octant & 1) == 0) continue;
             const OpenSlab& of = below[child++];
             if (of.there) joined.add(octant, of.gradient, of.planes);
         }
-        out.planes = joined.slab();
+        out.planes = joined.slab(out.planes.normal);
         slabs[p] = out;
     }
 };

@@ -45,8 +45,8 @@ struct PlacedSheet {
     const float half =
         0.5f * (std::fabs(out.gradient.x) + std::fabs(out.gradient.y) + std::fabs(out.gradient.z));
     const float step = half * (2.0f / 255.0f);
-    const auto lo = static_cast<float>(voxel.slab.lo);
-    const auto hi = static_cast<float>(voxel.slab.hi);
+    const auto lo = static_cast<float>(voxel.lo);
+    const auto hi = static_cast<float>(voxel.hi);
     out.at = (lo + share * (hi - lo)) * step - half;
     out.thickness = (hi - lo + 1.0f) * step;
     return out;

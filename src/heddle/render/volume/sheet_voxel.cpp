@@ -1,8 +1,6 @@
 #include <heddle/render/volume/sheet_voxel.h>
 
 #include <heddle/render/volume/traversal_level.h>
-#include <heddle/sggx/eigen.h>
-#include <heddle/sggx/pack.h>
 #include <heddle/voxel/plane_slab.h>
 
 #include <algorithm>
@@ -30,8 +28,8 @@ double part_below(Vec3d widths, double height) {
 
 /// Returns the extent in x that the line p x + q y = level has in the square [-0.5, 0.5]^2.
 double extent(double p, double q, double level) {
-    if (p == 0.0) return 0.0;
     const double half = 0.5 * std::fabs(q);
+    if (p == 0.0) return std::fabs(level) < half ? 1.0 : 0.0;
     const double x0 = std::clamp((level - half) / std::fabs(p), -0.5, 0.5);
     const double x1 = std::clamp((level + half) / std::fabs(p), -0.5, 0.5);
     return x1 - x0;
@@ -76,22 +74,6 @@ std::uint16_t pack_depth(double depth) {
     return static_cast<std::uint16_t>(std::clamp(x, 0.0, 65535.0));
 }
 
-/// Returns the share of a voxel's optical depth that is its sheet's: 1 for one flat lobe, 0 for
-/// normals in all directions. Normals that differ are of surfaces beside each other, which a sheet
-/// cannot stand for.
-double share_of_sheet(std::span<const Lobe> lobes, Vec3f normal) {
-    double whole = 0.0;
-    double first = 0.0;
-    for (const Lobe& lobe : lobes) {
-        const auto seen = static_cast<double>(projected_area(unpack(lobe.sggx), normal));
-        whole += lobe.weight * seen;
-        if (&lobe == lobes.data()) first = lobe.weight * seen;
-    }
-    const SymmetricEigen e = decompose(unpack(lobes.front().sggx));
-    const double across = std::sqrt(0.5 * std::max(0.0, e.value[1] + e.value[2]) / e.value[0]);
-    return first / whole * (1.0 - across);
-}
-
 /// What a sheet would cover if it had no holes, per axis, and how well coverage tells.
 struct WholeSheet {
     std::array<double, 3> covers;
@@ -105,31 +87,39 @@ WholeSheet whole_sheet(const Lattice& lattice, PlaneSlab slab, Vec3d normal) {
     const double lo = slab_position(slab.lo, half);
     const double hi = slab_position(slab.hi, half);
     WholeSheet out{detail::project_sheet(gradient, lo - round, hi + round), {}};
-    // Where the border of the projection runs through a row of columns is anywhere in a column: the
-    // count is off by at most half a column in each row, and by a quarter in the mean.
+    // The border of the projection runs through a row of columns anywhere in a column, so the count
+    // is off by up to half a column in each row; in all rows alike if the border is along an axis.
     const std::array<double, 3> border = detail::border_of_sheet(gradient, 0.5 * (lo + hi));
     for (std::size_t a = 0; a < 3; ++a) out.error[a] = 0.5 * border[a] / lattice.subvoxels;
     return out;
 }
 
 /// Returns the share of a whole sheet that must be there to cover what is covered: the least
-/// squares over the axes. 1 if that is within the error of counting columns.
+/// squares over the axes. 1 if, within the error of counting columns, all is covered that a whole
+/// sheet would cover as seen along its main axis.
 double present_share(const WholeSheet& whole, const std::array<double, 3>& covered) {
-    double product = 0.0, square = 0.0, error = 0.0;
+    double product = 0.0;
+    double square = 0.0;
+    double error = 0.0;
+    std::size_t main = 0;
     for (std::size_t a = 0; a < 3; ++a) {
         product += whole.covers[a] * std::min(covered[a], whole.covers[a]);
         square += whole.covers[a] * whole.covers[a];
         error += whole.covers[a] * whole.error[a];
+        if (whole.covers[a] > whole.covers[main]) main = a;
     }
-    return product + error >= square ? 1.0 : product / square;
+    const bool is_whole =
+        product + error >= square || covered[main] + whole.error[main] >= whole.covers[main];
+    return is_whole ? 1.0 : product / square;
 }
 
 } // namespace
 
 SheetVoxel make_sheet(const Lattice& lattice, const SheetSource& source) {
     SheetVoxel out;
-    out.slab = source.slab;
-    const Vec3d normal = slab_normal(source.lobes.front().sggx);
+    out.lo = source.slab.lo;
+    out.hi = source.slab.hi;
+    const Vec3d normal = slab_normal(source.slab);
     for (int a = 0; a < 3; ++a) {
         out.normal[static_cast<std::size_t>(a)] =
             static_cast<std::int16_t>(std::lround(normal[a] * 32767.0));
@@ -139,7 +129,9 @@ SheetVoxel make_sheet(const Lattice& lattice, const SheetSource& source) {
     double p = 1.0;
     out.depth = kOpaqueSheet;
     if (present < 1.0) {
-        const double depth = -std::log1p(-present) * share_of_sheet(source.lobes, to_float(normal));
+        // matter all over the voxel is no sheet: as far as the slab is thick, it is in the rest
+        const double thin = 1.0 - (source.slab.hi - source.slab.lo) / 255.0;
+        const double depth = -std::log1p(-present) * thin;
         p = -std::expm1(-depth);
         out.depth = std::min<std::uint16_t>(pack_depth(depth), kOpaqueSheet - 1);
     }
@@ -147,7 +139,8 @@ SheetVoxel make_sheet(const Lattice& lattice, const SheetSource& source) {
     const double most = 1.0 - 0.5 / columns; // as in the field `density`
     for (std::size_t a = 0; a < 3; ++a) {
         const double sheet = p * whole.covers[a];
-        if (source.covered[a] <= sheet + whole.error[a] || sheet >= most) continue;
+        const double error = present < 1.0 ? 0.0 : whole.error[a];
+        if (source.covered[a] <= sheet + error || sheet >= most) continue;
         out.rest[a] =
             pack_depth(std::log1p(-sheet) - std::log1p(-std::min(source.covered[a], most)));
     }

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <span>
 
 namespace heddle {
 
@@ -14,7 +13,8 @@ namespace heddle {
 /// and the rest, which is anywhere in the voxel.
 struct SheetVoxel {
     std::array<std::int16_t, 3> normal{}; ///< of the slab, 32767 = 1
-    PlaneSlab slab;
+    std::uint8_t lo = 0;                  ///< PlaneSlab
+    std::uint8_t hi = 0;
     /// -ln(1 - p) in kDepthUnit, where p is the probability that the sheet is where a ray crosses
     /// it; kOpaqueSheet: 1
     std::uint16_t depth = 0;
@@ -27,7 +27,6 @@ inline constexpr std::uint16_t kOpaqueSheet = 65535;
 /// A voxel as make_sheet() reads it.
 struct SheetSource {
     PlaneSlab slab;
-    std::span<const Lobe> lobes;   ///< the first is a surface's
     std::array<double, 3> covered; ///< coverage along the axes, 0 to 1
 };
 

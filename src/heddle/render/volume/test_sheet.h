@@ -101,7 +101,8 @@ sheet_level(const CrossSurface& surface, int extent, int level = 0, bool slabs =
             return share16(static_cast<double>(s.columns[a].size()) / (n * n));
         };
         voxels[at] = {{cover(0), cover(1), cover(2), cover(0)}, {{lobe, 255, 0}}};
-        const Vec3d gradient = slab_gradient(slab_normal(lobe), {1, 1, 1});
+        const PackedNormal normal = pack_normal(to_double(principal_direction(s.moment)));
+        const Vec3d gradient = slab_gradient(unpack_normal(normal), {1, 1, 1});
         double lo = 1e9, hi = -1e9;
         const auto [x, y, z] = at;
         for (const Vec3d& p : s.points) {
@@ -109,7 +110,7 @@ sheet_level(const CrossSurface& surface, int extent, int level = 0, bool slabs =
             lo = std::min(lo, v);
             hi = std::max(hi, v);
         }
-        slab_of[at] = {round_slab_value(lo), round_slab_value(hi)};
+        slab_of[at] = {round_slab_value(lo), round_slab_value(hi), normal};
     }
     MemoryLevel grid;
     grid.info().lattice = {{1, 1, 1}, n};

@@ -205,17 +205,17 @@ void TraversalLevel::fit_cells(const std::vector<Vec3i>& origins,
 void TraversalLevel::append_sheets(const VoxelBlock& block, std::size_t first_voxel) {
     std::size_t lobe = 0;
     for (std::size_t v = 0; v < block.slabs.size(); ++v) {
-        const std::span<const Lobe> lobes(&block.lobes[lobe], block.lobe_count[v]);
+        const Lobe& first = block.lobes[lobe];
         lobe += block.lobe_count[v];
-        const bool fiber = info_.materials[lobes.front().material].kind == MaterialKind::Fiber;
+        const bool fiber = info_.materials[first.material].kind == MaterialKind::Fiber;
         if (fiber) {
-            sheets_.push_back({{}, {}, 0, voxels_[first_voxel + v].depth});
+            sheets_.push_back({{}, 0, 0, 0, voxels_[first_voxel + v].depth});
             continue;
         }
         const Coverage& c = block.coverage[v];
         const auto share = [](std::uint16_t x) { return static_cast<double>(x) / 65535.0; };
-        sheets_.push_back(make_sheet(
-            info_.lattice, {block.slabs[v], lobes, {share(c.x), share(c.y), share(c.z)}}));
+        sheets_.push_back(
+            make_sheet(info_.lattice, {block.slabs[v], {share(c.x), share(c.y), share(c.z)}}));
     }
 }
 

@@ -44,7 +44,8 @@ struct TraversalLeaf {
 /// One level of an object in the layout that rays traverse: leaves of 8^3 voxels in a LeafTable, so
 /// that rays skip 64 or 8 empty voxels at a time.
 ///
-/// Memory: 8 bytes per voxel, 8 per lobe, 96 per leaf, the LeafTable, and the optional arrays.
+/// Memory: 8 bytes per voxel, 8 per lobe, 96 per leaf, the LeafTable, and the optional arrays, of
+/// which the sheets take 16 bytes per voxel.
 class TraversalLevel {
 public:
     /// Copies the data of `source`, which need not outlive this object.

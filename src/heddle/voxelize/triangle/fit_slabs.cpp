@@ -14,6 +14,7 @@ constexpr std::size_t kCells = std::size_t{kBlockVoxels} * kBlockVoxels * kBlock
 
 /// The slabs of a block for the triangles of one material (slab_op.h).
 struct SlabFitter::Slabs {
+    static constexpr bool kMeasuresAreas = false;
     const std::uint16_t* number;
     Voxel* voxels;
     const Lobe* lobes;
@@ -45,6 +46,16 @@ private:
     }
 };
 
+/// The same for the normals.
+struct SlabFitter::Areas : Slabs {
+    static constexpr bool kMeasuresAreas = true;
+    Vec3d faces; ///< slab_faces()
+
+    HEDDLE_HOST_INLINE void add_area(int voxel, Vec3d area) const {
+        add_area_moment(area * faces, voxels[voxel].moment);
+    }
+};
+
 SlabFitter::SlabFitter(const SurfaceSource& surfaces, const FitOptions& options)
     : surfaces_(surfaces), options_(options) {}
 
@@ -59,7 +70,6 @@ void SlabFitter::list_voxels(const VoxelBlock& block, Vec3i lo) {
         voxel.lobe_count = static_cast<std::uint8_t>(from.lobe_count());
         voxel.material = first.material;
         if (!options_.normals.has(first.material)) return;
-        voxel.gradient = slab_gradient(slab_normal(first.sggx), options_.voxel_size);
         const Vec3i at = from.at - lo;
         const int cell = (at.x * kBlockVoxels + at.y) * kBlockVoxels + at.z;
         number_[static_cast<std::size_t>(cell)] = static_cast<std::uint16_t>(from.voxel);
@@ -76,15 +86,25 @@ void SlabFitter::fit(std::span<const Primitive> triangles,
     list_voxels(block, lo);
     const SurfaceView& view = surfaces_.view();
     Slabs slabs{number_.data(), voxels_.data(), block.lobes.data(), options_.max_lobes, 0};
-    std::size_t done = 0;
-    for (const Primitive id : triangles) {
-        if (done++ % 256 == 0) progress.check();
-        const TriangleId at = view.place(triangle_of(id));
-        slabs.material = view.meshes[at.mesh].material;
-        widen_slabs(view, at, options_.subvoxels, lo, hi, slabs, scratch_);
+    const auto visit = [&](auto to) {
+        std::size_t done = 0;
+        for (const Primitive id : triangles) {
+            if (done++ % 256 == 0) progress.check();
+            const TriangleId at = view.place(triangle_of(id));
+            to.material = view.meshes[at.mesh].material;
+            widen_slabs(view, at, options_.subvoxels, lo, hi, to, scratch_);
+        }
+    };
+    const Vec3d edges = options_.voxel_size;
+    visit(Areas{slabs, slab_faces(edges)});
+    for (Voxel& voxel : voxels_) {
+        voxel.normal = main_normal(voxel.moment);
+        voxel.gradient = slab_gradient(unpack_normal(voxel.normal), edges);
     }
+    visit(slabs);
     for (std::size_t v = 0; v < voxels_.size(); ++v) {
-        if (voxels_[v].lo <= voxels_[v].hi) block.slabs[v] = {voxels_[v].lo, voxels_[v].hi};
+        const Voxel& of = voxels_[v];
+        if (of.lo <= of.hi) block.slabs[v] = {of.lo, of.hi, of.normal};
     }
 }
 

@@ -12,8 +12,8 @@
 
 namespace heddle {
 
-/// Fits the slabs (plane_slab.h) of a block's voxels to its triangles. The lobes are fitted before,
-/// since the planes are perpendicular to the stored normals, so this is a second pass.
+/// Fits the slabs (plane_slab.h) of a block's voxels to its triangles, in two passes after the
+/// lobes are fitted: one finds the normals, the other widens the slabs along them.
 ///
 /// A triangle counts in a voxel if the voxel's first lobe has its material, or if it has as many
 /// lobes as are stored and none has this material: then the material was merged into one of them,
@@ -39,6 +39,8 @@ public:
 private:
     /// What a voxel of a block has while its slab is fitted.
     struct Voxel {
+        std::int64_t moment[6] = {}; ///< of normals by area
+        PackedNormal normal;
         Vec3d gradient;
         std::uint32_t first_lobe = 0;
         std::uint8_t lobe_count = 0;
@@ -47,6 +49,7 @@ private:
         std::uint8_t hi = 0;
     };
     struct Slabs;
+    struct Areas;
     static constexpr std::uint16_t kNone = 0xffff;
 
     void list_voxels(const VoxelBlock& block, Vec3i lo);

@@ -13,8 +13,12 @@ namespace heddle {
 // device. `Slabs` is the slabs of one block for the triangle's material. It has the functions
 //
 //   int find(int cell)                      the voxel of a cell where the triangle counts; -1: none
-//   Vec3d gradient(int voxel)               slab_gradient() of the voxel's first lobe
+//   Vec3d gradient(int voxel)               slab_gradient() of the voxel
 //   void widen(int voxel, int lo, int hi)   makes the slab hold these values
+//
+// or, in the pass before that finds the normals, Slabs::kMeasuresAreas and
+//
+//   void add_area(int voxel, Vec3d area)    vector area of a piece, in units of the voxel's faces
 //
 // cell = (x 32 + y) 32 + z of a voxel relative to the block's lo.
 //
@@ -208,6 +212,25 @@ private:
         if (voxel < 0) return;
         const Piece& piece = voxels.cut(w);
         if (piece.count == 0) return;
+        if constexpr (Slabs::kMeasuresAreas) {
+            slabs_.add_area(voxel, area_of(piece));
+        } else {
+            widen(voxel, piece, cell);
+        }
+    }
+    /// Returns the vector area, in units of the voxel's faces.
+    HEDDLE_HD static Vec3d area_of(const Piece& piece) {
+        const auto from_first = [&](int i) {
+            return Vec3d{piece.p[i][0] - piece.p[0][0], piece.p[i][1] - piece.p[0][1],
+                         piece.p[i][2] - piece.p[0][2]};
+        };
+        Vec3d sum{};
+        for (int i = 2; i < piece.count; ++i) {
+            sum = sum + cross(from_first(i - 1), from_first(i)) * 0.5;
+        }
+        return sum;
+    }
+    HEDDLE_HD void widen(int voxel, const Piece& piece, const std::int64_t (&cell)[3]) const {
         const Vec3d g = slabs_.gradient(voxel);
         const double base =
             slab_value(g, {-0.5 - static_cast<double>(cell[0]), -0.5 - static_cast<double>(cell[1]),
