@@ -76,9 +76,11 @@ Stage::Stage(const Scene& scene, const StageOptions& options, Progress& progress
 }
 
 void Stage::read_level(OpenVolume& volume) {
-    volume.levels[static_cast<std::size_t>(volume.next)] =
-        std::make_shared<TraversalLevel>(*read_vdb(volume.path, volume.next));
-    --volume.next;
+    std::unique_ptr<MemoryLevel> level = read_vdb(volume.path, volume.next);
+    auto made = std::make_shared<TraversalLevel>(*level, volume.parents.get());
+    volume.parents.reset();
+    if (made->has_cells() && volume.next > 0) volume.parents = std::move(level);
+    volume.levels[static_cast<std::size_t>(volume.next--)] = std::move(made);
 }
 
 void Stage::open_volume(const SceneObject& object, const Scene& scene) {

@@ -53,7 +53,8 @@ private:
         std::vector<Affine> instances;
         std::vector<std::uint32_t> materials;
         int finest_wanted = 0;
-        int next = 0; ///< level to be read next
+        int next = 0;                        ///< level to be read next
+        std::unique_ptr<VoxelLevel> parents; ///< the level before that, for volumes of fibers
     };
     void open_volume(const SceneObject& object, const Scene& scene);
     void add_flakes(const SceneObject& object, const Scene& scene);

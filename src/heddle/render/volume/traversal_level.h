@@ -49,7 +49,9 @@ struct TraversalLeaf {
 class TraversalLevel {
 public:
     /// Copies the data of `source`, which need not outlive this object.
-    explicit TraversalLevel(const VoxelLevel& source);
+    /// @param parents  the level above it, whose coverage tells how far voxels behind each other
+    ///                 cover the same, if the file has no correlation; null: unknown
+    explicit TraversalLevel(const VoxelLevel& source, const VoxelLevel* parents = nullptr);
 
     [[nodiscard]] const VoxelLevelInfo& info() const { return info_; }
     /// Bounds of the indices of all voxels: [lo, hi).
@@ -125,6 +127,9 @@ private:
     /// Sets crowding_.
     /// @param extinction  of the cells, per voxel and axis
     void find_crowding(const std::vector<std::array<float, 3>>& extinction);
+    /// Returns VoxelBlock::correlation of all voxels as the coverage of their parents tells it.
+    [[nodiscard]] std::vector<std::array<std::uint8_t, 3>>
+    correlate(const VoxelLevel& parents) const;
     /// Returns the number of the voxel after the one at `at` along an axis; -1 if there is none.
     [[nodiscard]] std::int64_t next_voxel(Vec3i at, int axis) const;
     void append_sheets(const VoxelBlock& block, std::size_t first_voxel);
