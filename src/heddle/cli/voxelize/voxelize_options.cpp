@@ -85,9 +85,7 @@ job::VoxelizeJobOptions voxelize_options_from(const Arguments& arguments) {
     if (arguments.text("coverage") == "mask") options.coverage = CoverageMode::Mask;
     options.samples = arguments.integer("samples");
     if (arguments.text("fit") == "last") options.fit = FitMode::Last;
-    if (arguments.given("footprints")) {
-        options.footprints = static_cast<std::int32_t>(arguments.integer("footprints"));
-    }
+    options.footprints = static_cast<std::int32_t>(arguments.integer("footprints"));
     options.occupancy = arguments.integer("occupancy") != 0;
     options.correlation = arguments.given("correlation");
     options.keep_masks = arguments.given("keep-masks");

@@ -88,7 +88,7 @@ std::unique_ptr<Voxelizer::Run> Voxelizer::prepare(GeometryInput input,
             notes.push_back(std::move(note));
         }
     }
-    run->options = voxelizer_options(options_, run->geometry.meshes.empty());
+    run->options = voxelizer_options(options_);
     if (!options_.spool_dir) run->options.spool_dir = folder;
     if (writes) {
         run->options.writer_bytes = kVdbWriterBytes;

@@ -38,7 +38,7 @@ void check_voxelize_options(const VoxelizeJobOptions& o) {
     refuse(o.samples > 0 && o.coverage != CoverageMode::Mask,
            "`samples` needs `coverage` mask; columns are computed without random samples");
     refuse(
-        o.lod == LodMethod::Naive && (o.footprints.value_or(0) != 0 || o.correlation),
+        o.lod == LodMethod::Naive && (o.footprints != 0 || o.correlation),
         "`footprints` and `correlation` cannot be used with `lod` naive, which averages coverage");
     refuse(o.memory_bytes && *o.memory_bytes <= 0, "`memory` must be above 0");
     refuse(o.device_memory_bytes && *o.device_memory_bytes <= 0, "`device_memory` must be above 0");
@@ -47,10 +47,8 @@ void check_voxelize_options(const VoxelizeJobOptions& o) {
     check_backend(o);
 }
 
-VoxelizeOptions voxelizer_options(const VoxelizeJobOptions& o, bool curves_alone) {
+VoxelizeOptions voxelizer_options(const VoxelizeJobOptions& o) {
     check_voxelize_options(o);
-    // light transport through fibers needs footprints (docs/transport.md)
-    const std::int32_t footprints = curves_alone && o.lod != LodMethod::Naive ? 4 : 0;
     VoxelizeOptions options;
     options.voxel_size = o.voxel_size.value_or(Vec3d{});
     options.voxels = o.voxels.value_or(512);
@@ -59,7 +57,7 @@ VoxelizeOptions voxelizer_options(const VoxelizeJobOptions& o, bool curves_alone
     options.max_lobes = o.lobes;
     options.coverage = o.coverage;
     options.fit = o.fit;
-    options.footprints = o.footprints.value_or(footprints);
+    options.footprints = o.footprints;
     options.occupancy = o.occupancy;
     options.correlation = o.correlation;
     options.samples = o.samples;

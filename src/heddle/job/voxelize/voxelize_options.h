@@ -35,12 +35,10 @@ struct VoxelizeJobOptions {
     CoverageMode coverage = CoverageMode::Columns;
     std::int64_t samples = 0; ///< per span, for CoverageMode::Mask; 0: two per subvoxel
     FitMode fit = FitMode::Moments;
-    std::optional<std::int32_t>
-        footprints{};         ///< stored cells per axis: 0, 4 or 8; none: 4 for yarn
-                              ///< and hair, else 0
-    bool occupancy = true;    ///< stores which of 4 x 4 x 4 cells of a voxel contain geometry
-    bool correlation = false; ///< stores how much the occlusion of neighbours overlaps
-    bool keep_masks = false;  ///< stores columns and sums, so that levels can be rebuilt exactly
+    std::int32_t footprints = 0; ///< stored cells per axis of a voxel's faces: 0, 4 or 8
+    bool occupancy = true;       ///< stores which of 4 x 4 x 4 cells of a voxel contain geometry
+    bool correlation = false;    ///< stores how much the occlusion of neighbours overlaps
+    bool keep_masks = false;     ///< stores columns and sums, so that levels can be rebuilt exactly
     LodMethod lod = LodMethod::Moments;
     std::optional<int> levels{}; ///< most levels above the finest; none: all
     std::uint64_t seed = 0;
@@ -63,10 +61,8 @@ struct VoxelizeJobOptions {
 void check_voxelize_options(const VoxelizeJobOptions& options);
 
 /// Returns the options of the function heddle::voxelize.
-/// @param curves_alone  the geometry has no mesh
 /// @throws OptionError  as check_voxelize_options
-[[nodiscard]] VoxelizeOptions voxelizer_options(const VoxelizeJobOptions& options,
-                                                bool curves_alone);
+[[nodiscard]] VoxelizeOptions voxelizer_options(const VoxelizeJobOptions& options);
 
 /// Returns the options of SliceVoxelizer.
 [[nodiscard]] raster::RasterOptions raster_options(const VoxelizeJobOptions& options);
