@@ -30,6 +30,7 @@ CROPS = {
     "helmet": (0.8, 0.0)
 }
 ALONG = ("knit", )
+BRIGHT = 4.0  # times white, where colours are clamped for their means
 
 
 def crop_scene(name, path, volume, bounds, voxel, view, level):
@@ -93,13 +94,15 @@ def crop(a, prepared, cell):
     return Job(traced, test, name, str(level), a.transport, view)
 
 
-def area_colors(picture):
-    """Colour by covered area of each pixel, with the mean where little is covered, and the mean."""
+def area_colors(picture, scale):
+    """The exposed colours, clamped so that no single glint dominates; these by covered area in each
+    pixel, with the mean where little is covered; their mean; and the covered share."""
     import numpy as np
+    shown = np.clip(picture.rgb * scale, 0.0, BRIGHT)
     alpha = 1.0 - picture.transmittance
-    mean = picture.rgb.sum(axis=(0, 1), dtype=float) / max(float(alpha.sum(dtype=float)), 1e-9)
+    mean = shown.sum(axis=(0, 1), dtype=float) / max(float(alpha.sum(dtype=float)), 1e-9)
     some = alpha[..., None] > 0.01
-    return np.where(some, picture.rgb / np.maximum(alpha, 0.01)[..., None], mean), mean, alpha
+    return shown, np.where(some, shown / np.maximum(alpha, 0.01)[..., None], mean), mean, alpha
 
 
 def parts_of_flip(reference, test, stops):
@@ -107,14 +110,13 @@ def parts_of_flip(reference, test, stops):
     import numpy as np
     from heddle_compare.errors import TOUCHED, flip_map
     scale = 2.0**stops
-    color_a, mean_a, alpha_a = area_colors(reference)
-    color_b, mean_b, alpha_b = area_colors(test)
+    truth, color_a, mean_a, alpha_a = area_colors(reference, scale)
+    _, color_b, mean_b, alpha_b = area_colors(test, scale)
     ratio = mean_b / np.maximum(mean_a, 1e-9)
     mask = (alpha_a > TOUCHED) | (alpha_b > TOUCHED)
-    wrong = (color_a * alpha_b[..., None], reference.rgb * ratio,
+    wrong = (color_a * alpha_b[..., None], truth * ratio,
              color_b / np.maximum(ratio, 1e-9) * alpha_a[..., None])
-    truth = reference.rgb * scale
-    flips = [float(flip_map(truth, (x * scale).astype(np.float32))[mask].mean()) for x in wrong]
+    flips = [float(flip_map(truth, x.astype(np.float32))[mask].mean()) for x in wrong]
     return flips, [float(x) for x in ratio]
 
 
@@ -196,8 +198,8 @@ def main():
     run.write_all(a.output, entries)
     text = protocol.head("Protocol C: converged crops, a voxel a pixel, against traced geometry")
     text += (
-        "Cells: FLIP (FLIP of the noise alone), bias / mean absolute error of transmittance, R G B by covered area relative to traced, [FLIP if only coverage "
-        "were wrong, only the mean colour, neither]. Means are over touched pixels.\n\n")
+        "Cells: FLIP (FLIP of the noise alone), bias / mean absolute error of transmittance, R G B by covered area relative to traced (glints are clamped at four times "
+        "white), [FLIP if only coverage were wrong, only the mean colour, neither]. Means are over touched pixels.\n\n")
     text += result_text(entries, a)
     protocol.write_text(a.result, text)
     print(text, end="")
