@@ -7,14 +7,14 @@ usage: bench/protocol_b.py [-o FOLDER] [--scene knit satin hair pine lamp]
                            [--transport product...] [--samples 32] [--voxels 512] [--force-level]
                            [--footprints 4|8] [--correlation]
 Scenes: generated stockinette and satin of yarn `cotton`, straight hair, smallpine, the barn lamp;
-`sweater` (280 s to build, 8 GiB) only if named. Materials: cloth and hair are Lambertian round
-fibers of albedo 0.9 0.5 0.2, the others have their own. Lights: five directional ones and a black
-background, so that colour ratios are those of the object alone. Views: facing, 45 and 80 degrees
-off. The level is chosen by the footprint of rays, or by --force-level. --samples is for level 1;
-each level above has 4 times as many, up to 1024. --keep reuses existing pictures with the same
-options: the traced ones, or all, which continues a run that was stopped. Volumes are kept in FOLDER
-(default build/protocol_b), with result.md, errors.csv, sheet.png and errors.png. Needs the packages
-of tools/compare.
+`helmet`, and `sweater` (280 s to build, 8 GiB), only if named. Materials: cloth and hair are
+Lambertian round fibers of albedo 0.9 0.5 0.2, the others have their own. Lights: five directional
+ones and a black background, so that colour ratios are those of the object alone. Views: facing,
+45 and 80 degrees off. The level is chosen by the footprint of rays, or by --force-level. --samples
+is for level 1; each level above has 4 times as many, up to 1024. --keep reuses existing pictures
+with the same options: the traced ones, or all, which continues a run that was stopped. Volumes are
+kept in FOLDER (default build/protocol_b), with result.md, errors.csv, sheet.png and errors.png.
+Needs the packages of tools/compare.
 """
 import argparse
 import json
@@ -37,6 +37,7 @@ SCENES = {
         "file": "mesh/AnisotropyBarnLamp/AnisotropyBarnLamp.gltf", "front": (0, 0, 1),
         "up": (0, 1, 0)
     },
+    "helmet": {"file": "mesh/DamagedHelmet.glb", "front": (0, 0, 1), "up": (0, 1, 0)},
     "sweater": {
         "file": "yarn/bcc/sweater_flame_ribbing.bcc", "front": (0, 0, 1), "up": (0, 1, 0),
         "yarn": True
@@ -60,38 +61,41 @@ def prepare(folder, name, a):
     volume = os.path.join(
         folder, "_".join([name, str(a.voxels), *(str(x).strip("-") for x in extra)]) + ".vdb")
     voxels = made(volume, "voxelize", path, "--voxels", a.voxels, *model, *extra, "--levels",
-                  max(a.level) + 1)
+                  max(a.level) + 1, by=getattr(a, "made_by", None))
     reach = 0.2 if "yarn" in scene else 0.0  # curves may have the bounds of centrelines
     lo, hi = heddle("info", path)["bounds"]
     return path, ([x - reach for x in lo], [x + reach for x in hi]), volume, voxels["voxel_size"][0]
 
 
-def scene_text(name, path, volume, bounds, back, up, distance, size):
+def scene_text(name, path, volume, c, back, up, distance, size):
+    """The scene seen from `back` of the point c at a distance, lit by the five lights."""
     scene = SCENES[name]
     front = unit(scene["front"])
     side, top, _ = basis(front, scene["up"])
-    c = middle(bounds)
     angle = math.degrees(2 * math.atan(0.5 * size[1] * PIXEL))
     text = MATTE + protocol.camera_text(plus((1, c), (distance, back)), c, up, angle)
     for s, t, f, strength in ((0.5, -0.6, -1.0, 2.0), (-1.0, -0.3, -0.7, 0.7),
                               (0.2, 1.0, -0.6, 0.4), (0.1, -1.0, -0.1, 0.7), (0.0, 0.0, -1.0, 0.5)):
         text += protocol.sun_text(unit(plus((s, side), (t, top), (f, front))), strength)
-    text += f"[object.it]\nvolume = \"{os.path.abspath(volume)}\"\ngeometry = \"{os.path.abspath(path)}\"\n"
-    if "yarn" in scene:
-        text += "yarn = \"cotton\"\nyarn_radius = 0.1\n"
-    return text + ("materials = { \"*\" = \"matte\" }\n"
-                   if "yarn" in scene or "fiber" in scene else "")
+    yarn = ("cotton", 0.1) if "yarn" in scene else None
+    return text + protocol.object_text(volume, path, yarn, "matte"
+                                       if "yarn" in scene or "fiber" in scene else None)
 
 
-def camera(name, view, bounds, voxel, level):
-    """The camera for which a voxel of the level covers a pixel, and the size of the picture."""
+def view_axes(name, view):
+    """The axes right, up and back of the view, and the camera's up."""
     scene = SCENES[name]
     tilt = math.radians(VIEWS[view])
     front, up = unit(scene["front"]), unit(scene["up"])
     back = unit(plus((math.cos(tilt), front), (math.sin(tilt), up)))
     sign = -1.0 if "yarn" in scene and tilt > 0 else 1.0  # cloth: its far end is up
     camera_up = plus((sign, up)) if sign > 0 or tilt == 0 else front
-    right, top, back = basis(back, camera_up)
+    return *basis(back, camera_up), camera_up
+
+
+def camera(name, view, bounds, voxel, level):
+    """The camera for which a voxel of the level covers a pixel, and the size of the picture."""
+    right, top, back, camera_up = view_axes(name, view)
     distance = voxel * 2 ** level / PIXEL
     c = middle(bounds)
     reach = [0.0, 0.0]
@@ -126,7 +130,8 @@ def run_scene(folder, name, a):
             label = f"{name}_{a.voxels}_{view}_{level}"
             scene = os.path.join(folder, f"{label}.toml")
             with open(scene, "w") as file:
-                file.write(scene_text(name, path, volume, bounds, back, up, distance, size))
+                file.write(
+                    scene_text(name, path, volume, middle(bounds), back, up, distance, size))
             samples = min(1024, a.samples * 4 ** max(level - 1, 0))
             common = ["--size", f"{size[0]}x{size[1]}", "--samples", samples]
             reference, traced = render(folder, f"{label}_traced", scene,
@@ -177,7 +182,7 @@ def main():
     arguments.add_argument("--scene",
                            nargs="+",
                            choices=list(SCENES),
-                           default=[s for s in SCENES if s != "sweater"])
+                           default=[s for s in SCENES if s not in ("helmet", "sweater")])
     arguments.add_argument("--view", nargs="+", choices=list(VIEWS), default=list(VIEWS))
     arguments.add_argument("--level", nargs="+", type=int, default=[1, 2, 3, 4, 5])
     arguments.add_argument("--transport", nargs="+", default=["product"])

@@ -15,6 +15,11 @@ set(_w -Wall -Wextra -Wshadow -Wconversion -Wdouble-promotion -Wundef -Wnon-virt
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   list(APPEND _w -Wno-restrict) # false at -O3 for "text" + std::string (GCC bug 105651)
 endif()
+# For the core, whose bits must not depend on what is inlined where: g++ 12 vectorizes neighbouring
+# statements (double)(float)x, from -O2 on, and leaves both conversions out. Loops are not affected.
+set(HEDDLE_CORE_OPTIONS
+  "$<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fno-tree-slp-vectorize>"
+  "$<$<COMPILE_LANGUAGE:CUDA>:-Xcompiler=-fno-tree-slp-vectorize>")
 target_compile_options(heddle_flags INTERFACE
   "$<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang>:${_w}>"
   "$<$<AND:$<BOOL:${HEDDLE_WERROR}>,$<COMPILE_LANG_AND_ID:CXX,GNU,Clang>>:-Werror>"
@@ -44,6 +49,9 @@ function(heddle_add_module path)
   target_compile_features(heddle_${room} ${scope} cxx_std_20)
   # our warnings are for us: a project that links an installed heddle does not get them
   target_link_libraries(heddle_${room} ${scope} $<BUILD_INTERFACE:heddle_flags> ${A_DEPS})
+  if(NOT A_INTERFACE AND path IN_LIST HEDDLE_CORE_ROOMS)
+    target_compile_options(heddle_${room} PRIVATE ${HEDDLE_CORE_OPTIONS})
+  endif()
   if(NOT A_INTERFACE)
     target_link_libraries(heddle_${room} PRIVATE ${A_PRIVATE_DEPS})
   endif()

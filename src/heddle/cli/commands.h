@@ -18,7 +18,7 @@ namespace heddle::cli {
 [[nodiscard]] Command export_command();
 [[nodiscard]] Command view_command();
 
-/// All subcommands, in the order of a first use.
+/// Returns all subcommands, in the order in which a new user needs them.
 [[nodiscard]] inline const std::vector<Command>& commands() {
     static const std::vector<Command> all{
         info_command(),   generate_command(),   slice_command(),    voxelize_command(),

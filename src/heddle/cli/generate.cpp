@@ -40,7 +40,7 @@ void run_generate(const Arguments& arguments, Report& report, ProgressBar& bar) 
     report.count("nodes", done.nodes);
     report.number("radius", options.radius, "scene units");
     report.number("spacing", options.spacing, "scene units");
-    report_stages(report, done.stages);
+    report_phases(report, done.phases);
 }
 
 } // namespace

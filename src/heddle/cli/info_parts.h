@@ -7,13 +7,13 @@
 
 namespace heddle::cli {
 
-/// Rows on curves and meshes, and on what voxelizing them would take.
+/// Adds rows for curves and meshes, and for the work of voxelizing them.
 void report_geometry(Report& report, const job::GeometryInfo& info);
 
-/// Rows on a .vdb of Heddle's.
+/// Adds rows for a .vdb that Heddle wrote.
 void report_volume(Report& report, const job::VolumeInfo& volume);
 
-/// A row on materials in short.
+/// Adds a row with the names and kinds of materials.
 void report_material_names(Report& report, const std::vector<Material>& materials);
 
 } // namespace heddle::cli

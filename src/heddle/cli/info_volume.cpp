@@ -13,7 +13,7 @@ Json to_json(Vec3d v) {
     return {v.x, v.y, v.z};
 }
 
-/// One row a level: what it holds and what that takes.
+/// Adds one row per level, with its contents and its bytes.
 void report_levels(Report& report,
                    const std::vector<VoxelLevelInfo>& levels,
                    const std::vector<GridSummary>& grids) {
@@ -43,7 +43,7 @@ void report_levels(Report& report,
                  {"levels", "voxels", "lobes per voxel", "size", "bytes per voxel"}, rows);
 }
 
-/// "a (int64), b (float)": the grids of level 0, the sums of masks as their number.
+/// Returns the grids of level 0, such as "a (int64), b (float)". Grids of sums are only counted.
 std::string show_grids(const std::vector<GridSummary>& grids) {
     std::string names;
     int sums = 0;

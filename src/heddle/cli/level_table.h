@@ -7,10 +7,10 @@
 
 namespace heddle::cli {
 
-/// Two tables and the sentences that they need.
+/// Returns two tables in Markdown with the sentences that explain them.
 [[nodiscard]] std::string markdown_of(const job::LevelTable& table);
 
-/// The same numbers under keys, in JSON alone.
+/// Adds the same numbers to the JSON of a report.
 void add_json(const job::LevelTable& table, Report& report);
 
 } // namespace heddle::cli

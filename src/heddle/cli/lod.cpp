@@ -24,7 +24,7 @@ void run_lod(const Arguments& arguments, Report& report, ProgressBar& bar) {
     report.text("output", output);
     report_levels(report, done.counts);
     report_notes(report, done.notes);
-    report_stages(report, done.stages);
+    report_phases(report, done.phases);
     report_cost(report, done.seconds, done.peak_bytes);
 }
 

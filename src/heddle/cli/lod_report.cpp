@@ -45,7 +45,7 @@ void run_lod_report(const Arguments& arguments, Report& report, ProgressBar& bar
     report_notes(report, table.notes);
     add_json(table, report);
     report.page(markdown_of(table));
-    for (const auto& [stage, seconds] : table.stages) report.data(stage + "_seconds", seconds);
+    for (const auto& [phase, seconds] : table.phases) report.data(phase + "_seconds", seconds);
     report.data("peak_memory_bytes", table.peak_bytes);
 }
 

@@ -43,7 +43,7 @@ ExitCode exit_code(const Error& error) {
     return Failed;
 }
 
-/// One line on stderr, whatever the text holds.
+/// Prints a text as one line on stderr, even if it has line breaks.
 int fail(ExitCode code, std::string text) {
     std::replace_if(
         text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
@@ -51,7 +51,7 @@ int fail(ExitCode code, std::string text) {
     return code;
 }
 
-/// What the options of all commands are called, without dashes.
+/// Returns the names of the options of all commands, without dashes.
 const std::vector<std::string>& option_keys() {
     static const std::vector<std::string> keys = [] {
         std::vector<std::string> all;
@@ -63,7 +63,7 @@ const std::vector<std::string>& option_keys() {
     return keys;
 }
 
-/// An Error's problems on stderr, one a line.
+/// Prints the problems of an Error on stderr, one per line.
 int fail(const Error& error) {
     const ExitCode code = exit_code(error);
     for (const std::string& line : split(error.what(), '\n')) {
@@ -72,7 +72,7 @@ int fail(const Error& error) {
     return code;
 }
 
-/// Eight lines; a test checks that every command is in them.
+/// Returns eight lines. A test checks that they name every command.
 std::string overview() {
     return "heddle " HEDDLE_VERSION ": yarn, hair and meshes to sparse anisotropic volumes\n"
            "usage: heddle COMMAND ... [--help]\n"
@@ -92,7 +92,7 @@ void run_command(const Command& command, const std::vector<std::string>& words) 
     report.json = arguments.given("json");
     report.quiet = arguments.given("quiet");
     report.option_keys = option_keys();
-    // on the heap and never freed: a late signal may still reach it
+    // on the heap and never freed: a late signal may still use it
     auto* bar = new ProgressBar(!report.quiet && ::isatty(STDERR_FILENO) == 1,
                                 [&report](const std::string& note) { report.say(note); });
     cancel_on_signals(*bar);

@@ -13,8 +13,8 @@
 namespace heddle::cli {
 namespace {
 
-/// What a key's value may be.
-/// @throws UsageError  no such key
+/// Returns the values that a key allows.
+/// @throws UsageError  there is no such key
 ValueRule values_of(const std::string& key) {
     constexpr double kMost = std::numeric_limits<float>::max();
     const std::vector<std::string>& keys = job::material_keys();

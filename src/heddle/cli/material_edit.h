@@ -6,11 +6,11 @@
 
 namespace heddle::cli {
 
-/// "name, albedo, ...": what a material's edit can change.
+/// Returns the keys that an edit of a material can change, such as "name, albedo, ...".
 [[nodiscard]] std::string listed_material_keys();
 
-/// NAME.KEY=VALUE as an edit of the material NAME.
-/// @throws UsageError  it is none; no such key; a value that the key does not allow
+/// Converts NAME.KEY=VALUE to an edit of the material NAME.
+/// @throws UsageError  the text has another form, or the key or its value is not allowed
 [[nodiscard]] job::MaterialEdit material_edit_from(const std::string& text);
 
 } // namespace heddle::cli

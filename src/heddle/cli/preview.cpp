@@ -44,7 +44,7 @@ void run_preview(const Arguments& arguments, Report& report, ProgressBar& bar) {
     report.count("voxels", done.voxels);
     report.add("size", "size", {done.width, done.height},
                str(done.width, " x ", done.height, " pixels"));
-    report_stages(report, done.stages);
+    report_phases(report, done.phases);
 }
 
 } // namespace

@@ -93,7 +93,7 @@ Command render_command() {
                 {
                     {"--transport", "MODEL", "(from the scene, or auto)", one_of(transport_names()),
                      "",
-                     "How the opacities of voxels along a ray combine; auto: cells for fibers whose volume stores occupancy bits, else product."},
+                     "How the opacities of voxels along a ray combine; auto: sheet for surfaces whose volume stores slabs, cells for fibers whose volume stores occupancy bits, else product."},
                     {"--level", "N", "(from the footprint of each ray)", integer(0, 1000), "",
                      "Uses one level of detail for all rays; 0 = the finest."},
                     {"--level-offset", "X", "0", number(-8, 8), "levels",

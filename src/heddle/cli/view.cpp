@@ -35,14 +35,14 @@ void draw_frames(const job::LoadedView& view,
     report.text("driver", done.driver);
     report.count("slices", done.slices);
     report.text("blend", done.blend);
-    for (const auto& [stage, seconds] :
+    for (const auto& [phase, seconds] :
          {std::pair{"sort", done.a_frame.sort}, std::pair{"shadow", done.a_frame.shadow},
           std::pair{"draw", done.a_frame.draw}}) {
-        report.add(str(stage, "_a_frame_seconds"), str(stage, " per frame"), seconds,
+        report.add(str(phase, "_a_frame_seconds"), str(phase, " per frame"), seconds,
                    format_seconds(seconds));
     }
-    report_stages(report, view.stages);
-    report_stages(report, done.stages);
+    report_phases(report, view.phases);
+    report_phases(report, done.phases);
 }
 
 void open_window(const job::LoadedView& view,
@@ -59,7 +59,7 @@ void open_window(const job::LoadedView& view,
     report.count("inputs shown", counts.inputs);
     report.add("median_answer", "median response", counts.median_ms, str(counts.median_ms, " ms"));
     report.add("slowest_answer", "slowest response", counts.worst_ms, str(counts.worst_ms, " ms"));
-    report_stages(report, view.stages);
+    report_phases(report, view.phases);
 }
 
 void run_view(const Arguments& arguments, Report& report, ProgressBar& bar) {

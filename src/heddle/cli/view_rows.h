@@ -7,10 +7,10 @@
 
 namespace heddle::cli {
 
-/// The rows of `heddle view`.
+/// Returns the rows of `heddle view`.
 [[nodiscard]] std::vector<Option> view_rows();
 
-/// What is looked at, and how at first, as those rows say.
+/// Return what is shown, and the initial settings, as those rows give them.
 [[nodiscard]] job::ViewInput view_input_from(const Arguments& arguments);
 [[nodiscard]] job::ViewOptions view_options_from(const Arguments& arguments);
 

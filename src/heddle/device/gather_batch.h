@@ -1,8 +1,10 @@
 #pragma once
 
+#include <heddle/device/fit_slabs_op.h>
 #include <heddle/device/gather_fibers_op.h>
 #include <heddle/device/gather_triangle_op.h>
 #include <heddle/device/level/fit_sums.h>
+#include <heddle/device/level/join_slabs_op.h>
 
 #include <array>
 #include <cstdint>
@@ -138,6 +140,61 @@ void gather_triangles(Exec& exec,
                   GatherTriangleOp<Kind>{scene.surfaces, scene.units, sums, of_kind.data()});
 }
 
+/// Adds a batch's triangles of one kind to the normals or to the slabs of its voxels.
+/// @tparam Slabs  DenseAreas or DenseSlabs
+template <typename Slabs, SurfaceKind Kind, typename Exec>
+void widen_slabs_of(Exec& exec,
+                    const DeviceGeometry& scene,
+                    const BatchBlock* blocks,
+                    const BatchPairs& pairs,
+                    const BatchSlabs& slabs) {
+    const executor::Array<BlockPair>& of_kind = pairs.of[number_of(Kind)];
+    exec.for_each(of_kind.size(), WidenSlabsOp<Kind, Slabs>{scene.surfaces, scene.units.n, blocks,
+                                                            of_kind.data(), slabs});
+}
+
+/// The same for all kinds.
+template <typename Slabs, typename Exec>
+void widen_slabs(Exec& exec,
+                 const DeviceGeometry& scene,
+                 const BatchBlock* blocks,
+                 const BatchPairs& pairs,
+                 const BatchSlabs& slabs) {
+    widen_slabs_of<Slabs, SurfaceKind::Constant>(exec, scene, blocks, pairs, slabs);
+    widen_slabs_of<Slabs, SurfaceKind::Shaded>(exec, scene, blocks, pairs, slabs);
+    widen_slabs_of<Slabs, SurfaceKind::Displaced>(exec, scene, blocks, pairs, slabs);
+}
+
+/// Fits the slabs of level 0 of a batch, as SlabFitter does.
+/// @throws Error  OutOfMemory, Device
+template <typename Exec>
+void fit_slabs(Exec& exec,
+               const DeviceGeometry& scene,
+               const BatchBlock* blocks,
+               const BatchPairs& pairs,
+               LevelArrays& level) {
+    exec.set_phase("slabs");
+    const std::size_t n = level.voxel_count;
+    level.slabs = exec.template make<OpenSlab>(n);
+    const auto moment = exec.template make_zero<std::uint64_t>(6 * n);
+    const auto reach = exec.template make_zero<std::uint32_t>(2 * n);
+    exec.for_each(
+        n, OpenSlabsOp{scene.fit, level.first_lobe.data(), level.lobes.data(), level.slabs.data()});
+    const BatchSlabs slabs{level.key.data(),
+                           level.first_lobe.data(),
+                           level.lobes.data(),
+                           level.slabs.data(),
+                           moment.data(),
+                           reach.data(),
+                           n,
+                           scene.fit.max_lobes,
+                           slab_faces(scene.fit.voxel_size)};
+    widen_slabs<DenseAreas>(exec, scene, blocks, pairs, slabs);
+    exec.for_each(n, TurnSlabsOp{moment.data(), scene.fit.voxel_size, level.slabs.data()});
+    widen_slabs<DenseSlabs>(exec, scene, blocks, pairs, slabs);
+    exec.for_each(n, CloseSlabsOp{reach.data(), level.slabs.data()});
+}
+
 /// Returns level 0 of a batch of blocks, gathered from the primitives and fitted.
 /// @throws Error  OutOfMemory, Device
 template <typename Exec>
@@ -168,7 +225,9 @@ template <typename Exec>
     gather_triangles<SurfaceKind::Constant>(exec, scene, sums, pairs);
     gather_triangles<SurfaceKind::Shaded>(exec, scene, sums, pairs);
     gather_triangles<SurfaceKind::Displaced>(exec, scene, sums, pairs);
-    return fit_sums(exec, sums, n, merging, scene.fit);
+    LevelArrays level0 = fit_sums(exec, sums, n, merging, scene.fit);
+    if (scene.fit.fields.slabs) fit_slabs(exec, scene, blocks.data(), pairs, level0);
+    return level0;
 }
 
 } // namespace heddle

@@ -68,6 +68,33 @@ TEST(DeviceVoxelizer, SurfacesAreTheCpus) {
     expect_parity(generated(GenerateKind::Grass, 20, 5), options_of(80));
 }
 
+TEST(DeviceVoxelizer, SlabsOfDisplacedAndClippedSurfacesAreTheCpus) {
+    Geometry plate = generated(GenerateKind::Brushed, 8, 8);
+    Texture waves;
+    waves.width = 8;
+    waves.height = 1;
+    waves.channels = 4;
+    for (const int h : {0, 90, 200, 255, 200, 90, 30, 10}) {
+        waves.texels.insert(waves.texels.end(), 4, static_cast<std::uint8_t>(h));
+    }
+    plate.textures.push_back(waves);
+    Material& material = plate.materials[plate.meshes[0].material];
+    material.height_map = static_cast<std::int32_t>(plate.textures.size()) - 1;
+    const Bounds box = plan_voxelize(plate, options_of(60)).bounds;
+    material.height_scale = static_cast<float>(0.1 * box.size().x);
+    VoxelizeOptions options = options_of(60);
+    options.keep_sums = true;
+    expect_parity(plate, options);
+    options.voxels = 0;
+    const double h = box.size().x / 70.0;
+    options.voxel_size = {h, 1.2 * h, 0.8 * h};
+    Bounds region;
+    region.grow(box.lo + box.size() * 0.2);
+    region.grow(box.lo + box.size() * 0.7 + Vec3d{0.0, 0.0, box.size().x});
+    options.bounds = region;
+    expect_parity(plate, options);
+}
+
 TEST(DeviceVoxelizer, ManyMaterialsShareLobesAsOnTheCpu) {
     Geometry g = swatch();
     const Geometry grass = generated(GenerateKind::Grass, 20, 5);

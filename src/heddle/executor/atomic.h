@@ -36,4 +36,16 @@ HEDDLE_HD inline std::uint32_t atomic_add(std::uint32_t* at, std::uint32_t x) {
 #endif
 }
 
+/// *at = max(*at, x), atomically.
+HEDDLE_HD inline void atomic_max(std::uint32_t* at, std::uint32_t x) {
+#if HEDDLE_DEVICE_PASS
+    atomicMax(at, x);
+#else
+    std::atomic_ref value(*at);
+    std::uint32_t before = value.load(std::memory_order_relaxed);
+    while (before < x && !value.compare_exchange_weak(before, x, std::memory_order_relaxed)) {
+    }
+#endif
+}
+
 } // namespace heddle::executor

@@ -88,7 +88,7 @@ struct FlakeField::Draft {
     [[nodiscard]] bool holds(Vec3i p) const {
         return p.x >= 0 && p.y >= 0 && p.z >= 0 && p.x < size.x && p.y < size.y && p.z < size.z;
     }
-    [[nodiscard]] std::size_t place(Vec3i p) const {
+    [[nodiscard]] std::size_t number_of(Vec3i p) const {
         return (static_cast<std::size_t>(p.z) * static_cast<std::size_t>(size.y) +
                 static_cast<std::size_t>(p.y)) *
                    static_cast<std::size_t>(size.x) +
@@ -108,7 +108,7 @@ void FlakeField::Draft::grow_one(Vec3i p, std::uint8_t pass) {
             Vec3i q = p;
             q[a] += step;
             if (!holds(q)) continue;
-            const std::size_t j = place(q);
+            const std::size_t j = number_of(q);
             if (known[j] == 0 || known[j] > pass) continue;
             add(sum, S[j], 1.0f);
             color = color + albedo[j];
@@ -116,7 +116,7 @@ void FlakeField::Draft::grow_one(Vec3i p, std::uint8_t pass) {
         }
     }
     if (count == 0) return;
-    const std::size_t i = place(p);
+    const std::size_t i = number_of(p);
     const float share = 1.0f / static_cast<float>(count);
     S[i] = {};
     add(S[i], sum, share);
@@ -128,7 +128,7 @@ void FlakeField::Draft::grow(std::uint8_t pass) {
     for (std::int32_t z = 0; z < size.z; ++z) {
         for (std::int32_t y = 0; y < size.y; ++y) {
             for (std::int32_t x = 0; x < size.x; ++x) {
-                if (known[place({x, y, z})] == 0) grow_one({x, y, z}, pass);
+                if (known[number_of({x, y, z})] == 0) grow_one({x, y, z}, pass);
             }
         }
     }
@@ -235,7 +235,7 @@ void FlakeField::fill(Vec3i low, Vec3i size, FlakeBlock& out) const {
     Draft draft(low, size, one_albedo_);
     bool any = false;
     for_each_in_box(draft.low, draft.size, [&](std::size_t v, Vec3i p) {
-        const std::size_t i = draft.place(p - draft.low);
+        const std::size_t i = draft.number_of(p - draft.low);
         draft.sigma_t[i] = sigma_t_[v];
         draft.S[i] = unpack_flake(S_[v]);
         draft.known[i] = 1;
@@ -251,7 +251,7 @@ void FlakeField::fill(Vec3i low, Vec3i size, FlakeBlock& out) const {
     for (std::int32_t z = 0; z < size.z; ++z) {
         for (std::int32_t y = 0; y < size.y; ++y) {
             for (std::int32_t x = 0; x < size.x; ++x) {
-                const std::size_t i = draft.place({x + kHalo, y + kHalo, z + kHalo});
+                const std::size_t i = draft.number_of({x + kHalo, y + kHalo, z + kHalo});
                 out.sigma_t.push_back(draft.sigma_t[i]);
                 out.S.push_back(pack_flake(draft.S[i]));
                 if (albedo_varies()) out.albedo.push_back(draft.albedo[i]);

@@ -4,8 +4,8 @@
 #include <heddle/io/vdb/read_vdb.h>
 #include <heddle/io/vdb/replace_materials.h>
 #include <heddle/job/option_error.h>
-#include <heddle/job/output_place.h>
-#include <heddle/job/stage_clock.h>
+#include <heddle/job/phase_clock.h>
+#include <heddle/job/write_output.h>
 
 #include <algorithm>
 #include <charconv>

@@ -4,7 +4,7 @@
 #include <heddle/base/memory.h>
 #include <heddle/io/curve/curve_files.h>
 #include <heddle/io/gltf/write_glb.h>
-#include <heddle/job/output_place.h>
+#include <heddle/job/write_output.h>
 
 namespace heddle::job {
 namespace {
@@ -54,7 +54,7 @@ Geometry generate_geometry(const GenerateOptions& options, Progress& progress) {
 
 GenerateReport
 generate_to_file(const GenerateOptions& options, const std::string& output, Progress& progress) {
-    StageClock clock(progress);
+    PhaseClock clock(progress);
     GenerateReport report;
     report.options = resolve(options);
     report.nodes = predict_nodes(report.options);
@@ -63,7 +63,7 @@ generate_to_file(const GenerateOptions& options, const std::string& output, Prog
     clock.begin("write", "nodes", report.nodes);
     write_output([&] { write_geometry(geometry, report.options.kind, output); });
     clock.finish();
-    report.stages = clock.stages();
+    report.phases = clock.phases();
     return report;
 }
 

@@ -2,7 +2,7 @@
 
 #include <heddle/base/progress.h>
 #include <heddle/geom/generate.h>
-#include <heddle/job/stage_clock.h>
+#include <heddle/job/phase_clock.h>
 
 #include <cstdint>
 #include <string>
@@ -13,7 +13,7 @@ namespace heddle::job {
 struct GenerateReport {
     GenerateOptions options; ///< with all defaults filled in
     std::int64_t nodes = 0;  ///< control points of curves, or vertices of meshes
-    StageTimes stages{};
+    PhaseTimes phases{};
 };
 
 /// Returns the suffix of the file format for this kind of geometry: ".bcc", ".hair" or ".glb".

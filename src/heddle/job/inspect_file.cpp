@@ -5,8 +5,8 @@
 #include <heddle/io/vdb/read_vdb.h>
 #include <heddle/job/levels.h>
 #include <heddle/job/option_error.h>
-#include <heddle/job/output_place.h>
-#include <heddle/job/stage_clock.h>
+#include <heddle/job/phase_clock.h>
+#include <heddle/job/write_output.h>
 
 #include <algorithm>
 #include <utility>
@@ -78,6 +78,34 @@ void plan_in(GeometryInfo& info,
     }
 }
 
+/// Returns the name of an option that is given and concerns curves and meshes alone; "": none.
+const char* given_option(const InspectOptions& options) {
+    const GeometryOptions& g = options.geometry;
+    const std::pair<bool, const char*> all[] = {
+        {options.voxel_size.has_value(), "voxel_size"},
+        {options.voxels.has_value(), "voxels"},
+        {g.yarn.has_value(), "yarn"},
+        {g.yarn_radius.has_value(), "yarn_radius"},
+        {g.repeat_x != 1 || g.repeat_y != 1, "repeat"},
+        {g.fibers.has_value(), "fibers"},
+        {g.fiber_radius.has_value(), "fiber_radius"},
+        {g.height_map.has_value(), "height_map"},
+        {g.height_scale.has_value(), "height_scale"},
+        {g.height_offset.has_value(), "height_offset"},
+    };
+    for (const auto& [given, name] : all) {
+        if (given) return name;
+    }
+    return "";
+}
+
+void refuse_options(const InspectOptions& options, const std::string& suffix) {
+    const std::string name = given_option(options);
+    if (name.empty()) return;
+    throw OptionError(str("`", name, "` cannot be used with a ", suffix,
+                          ", which holds voxels; it needs curves or meshes"));
+}
+
 VolumeInfo inspect_volume(const std::string& path, const Progress& progress) {
     VolumeInfo info;
     info.levels = read_infos(path);
@@ -119,6 +147,7 @@ FileInfo inspect_file(const std::string& path, const InspectOptions& options, Pr
     FileInfo info{path, 0, {}};
     progress.begin("read", "files", 1);
     const std::string suffix = suffix_of(path);
+    if (suffix == ".vdb" || suffix == ".vol") refuse_options(options, suffix);
     if (suffix == ".vdb") {
         info.content = inspect_volume(path, progress);
     } else if (suffix == ".vol") {

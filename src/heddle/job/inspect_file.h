@@ -88,7 +88,8 @@ inspect_geometry(GeometryInput input, const InspectOptions& options, Progress& p
 
 /// Inspects a file of curves or meshes, a .vol, or a .vdb that Heddle wrote. Every voxel of a .vdb
 /// is read and checked.
-/// @throws Error  as the reader of the format, and inspect_geometry
+/// @throws OptionError  an option that only curves and meshes have is given for a .vol or a .vdb
+/// @throws Error        as the reader of the format, and inspect_geometry
 [[nodiscard]] FileInfo
 inspect_file(const std::string& path, const InspectOptions& options, Progress& progress);
 

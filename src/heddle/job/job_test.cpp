@@ -2,8 +2,8 @@
 #include <heddle/job/geometry_input.h>
 #include <heddle/job/inspect_file.h>
 #include <heddle/job/option_error.h>
-#include <heddle/job/output_place.h>
 #include <heddle/job/slice_yarn.h>
+#include <heddle/job/write_output.h>
 
 #include <heddle/io/geometry/read_geometry.h>
 #include <heddle/io/image/image.h>
@@ -55,7 +55,7 @@ TEST(GeometryInput, OptionsThatDoNotGoTogetherAreRefusedInWords) {
     EXPECT_EQ(with({.repeat_x = 2}, test::two_yarns()), "`repeat` needs a file");
 }
 
-TEST(OutputPlace, ABadPlaceIsSaidBeforeTheWork) {
+TEST(CheckOutput, ABadPathIsRefusedBeforeTheWork) {
     const TempFolder folder;
     EXPECT_NE(
         refused([&] { check_output(folder.file("a.png"), ".vdb", "plot"); }).find("`plot`: '"),

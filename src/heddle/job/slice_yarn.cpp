@@ -2,8 +2,8 @@
 
 #include <heddle/io/image/image.h>
 #include <heddle/io/yarn/yarn_file.h>
-#include <heddle/job/output_place.h>
-#include <heddle/job/stage_clock.h>
+#include <heddle/job/phase_clock.h>
+#include <heddle/job/write_output.h>
 #include <heddle/yarn/slice_image.h>
 
 #include <algorithm>

@@ -16,10 +16,10 @@ std::uint32_t IndexTable::add(Vec3i index) {
     if (2 * (std::size_t{size_} + 1) > slots_.size()) {
         const std::vector<Slot> old = std::exchange(slots_, std::vector<Slot>(2 * slots_.size()));
         for (const Slot& slot : old) {
-            if (slot.number != kNone) slots_[place_of(slot.index)] = slot;
+            if (slot.number != kNone) slots_[slot_of(slot.index)] = slot;
         }
     }
-    slots_[place_of(index)] = {index, size_};
+    slots_[slot_of(index)] = {index, size_};
     return size_++;
 }
 

@@ -33,7 +33,7 @@ private:
     };
     [[nodiscard]] static std::uint32_t hash(Vec3i index);
     /// Returns the number of the slot that holds a cell, or of the empty slot where it belongs.
-    [[nodiscard]] std::size_t place_of(Vec3i index) const;
+    [[nodiscard]] std::size_t slot_of(Vec3i index) const;
 
     std::vector<Slot> slots_ = std::vector<Slot>(2); ///< their number is a power of two
     std::uint32_t size_ = 0;
@@ -49,7 +49,7 @@ inline std::uint32_t IndexTable::hash(Vec3i index) {
     return h ^ h >> 13;
 }
 
-inline std::size_t IndexTable::place_of(Vec3i index) const {
+inline std::size_t IndexTable::slot_of(Vec3i index) const {
     const std::size_t mask = slots_.size() - 1;
     std::size_t i = hash(index) & mask;
     while (slots_[i].number != kNone && !(slots_[i].index == index)) i = (i + 1) & mask;
@@ -57,7 +57,7 @@ inline std::size_t IndexTable::place_of(Vec3i index) const {
 }
 
 inline std::uint32_t IndexTable::find(Vec3i index) const {
-    return slots_[place_of(index)].number;
+    return slots_[slot_of(index)].number;
 }
 
 } // namespace heddle

@@ -40,7 +40,7 @@ public:
             tiles_.push_back(tile);
             leaves_.resize(leaves_.size() + kTileLeaves, kNone);
         }
-        leaves_[number * kTileLeaves + place_in_tile(origin)] = size_;
+        leaves_[number * kTileLeaves + number_in_tile(origin)] = size_;
         return size_++;
     }
 
@@ -61,7 +61,7 @@ public:
     /// @param tile  voxel index >> kTileShift
     [[nodiscard]] std::uint32_t find_tile(Vec3i tile) const { return index_.find(tile); }
     [[nodiscard]] std::uint32_t find_in_tile(std::uint32_t tile, Vec3i at) const {
-        return leaves_[tile * kTileLeaves + place_in_tile(at)];
+        return leaves_[tile * kTileLeaves + number_in_tile(at)];
     }
 
     /// Returns the number of leaves.
@@ -80,7 +80,7 @@ private:
     [[nodiscard]] static Vec3i tile_of(Vec3i at) {
         return {at.x >> kTileShift, at.y >> kTileShift, at.z >> kTileShift};
     }
-    [[nodiscard]] static std::size_t place_in_tile(Vec3i at) {
+    [[nodiscard]] static std::size_t number_in_tile(Vec3i at) {
         constexpr std::int32_t kMask = (1 << kTileBits) - 1;
         return static_cast<std::size_t>((at.x >> 3 & kMask) << (2 * kTileBits) |
                                         (at.y >> 3 & kMask) << kTileBits | (at.z >> 3 & kMask));

@@ -37,6 +37,7 @@ void take_voxel(Part& part, bool with_order, VoxelBlock& out) {
     copy(from.footprints, part.voxel, 1, out.footprints);
     copy(from.correlation, part.voxel, 1, out.correlation);
     copy(from.occupancy, part.voxel, 1, out.occupancy);
+    copy(from.slabs, part.voxel, 1, out.slabs);
     if (with_order) {
         out.merge_order.push_back(from.merge_order.empty() ? 0 : from.merge_order[part.voxel]);
     }

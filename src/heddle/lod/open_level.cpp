@@ -6,6 +6,8 @@
 #include <heddle/voxel/footprint.h>
 #include <heddle/voxel/leaf_voxels.h>
 #include <heddle/voxel/occupancy.h>
+#include <heddle/voxel/parent_slab.h>
+#include <heddle/voxel/stored_lobe.h>
 
 #include <bit>
 #include <cmath>
@@ -184,6 +186,24 @@ void join_seen(OpenVoxel& parent, CoverageRule rule, const std::array<const Open
     }
 }
 
+void join_slabs(OpenVoxel& parent,
+                const DirectionSums& first_lobe,
+                const LevelOptions& options,
+                const std::array<const OpenVoxel*, 8>& child) {
+    if (!options.fields.slabs || !options.normals.has(first_lobe.material)) return;
+    ParentNormal main;
+    for (const OpenVoxel* of : child) {
+        if (of != nullptr && of->slab.there) main.add(slab_normal(of->slab.planes), of->hits);
+    }
+    parent.slab = OpenSlab({0, 255, main.normal()}, options.lattice.voxel_size);
+    ParentSlab joined{parent.slab.gradient};
+    for (int c = 0; c < 8; ++c) {
+        const OpenVoxel* const of = child[static_cast<std::size_t>(c)];
+        if (of != nullptr && of->slab.there) joined.add(c, of->slab.gradient, of->slab.planes);
+    }
+    parent.slab.planes = joined.slab(parent.slab.planes.normal);
+}
+
 void open_block(const VoxelBlock& stored,
                 Vec3i block,
                 const LevelOptions& options,
@@ -205,6 +225,10 @@ void open_block(const VoxelBlock& stored,
         voxel.first_lobe = static_cast<std::uint32_t>(out.lobes.size());
         voxel.lobe_count = stored.lobe_count[from.voxel];
         open_lobes(from, options, out);
+        const Lobe& first = from.lobes().front();
+        if (options.fields.slabs && options.normals.has(first.material)) {
+            voxel.slab = OpenSlab(from.slab(), options.lattice.voxel_size);
+        }
         if (rule == CoverageRule::Union) {
             const auto& columns = stored.columns[from.voxel];
             out.columns.insert(out.columns.end(), columns.begin(), columns.end());
@@ -232,6 +256,7 @@ void build_level(const OpenLevel& below,
                 if (options.coverage == CoverageRule::Union) join_columns(below, child, out);
                 merge_lobes(below, child, options,
                             seed_of(options, out.level, out.origin + Vec3i{x, y, z}), pool, out);
+                join_slabs(voxel, out.lobes[voxel.first_lobe], options, seen);
             }
         }
     }
@@ -246,6 +271,7 @@ void append_coverage(const OpenVoxel& voxel,
     Coverage& c = out.coverage.emplace_back();
     c.occupancy = wide_fraction16(voxel.hits, n * n * n);
     if (options.fields.occupancy) out.occupancy.push_back(voxel.cells);
+    if (options.fields.slabs) out.slabs.push_back(voxel.slab.planes);
     if (options.coverage == CoverageRule::Union) {
         c.x = wide_fraction16(covered[0], n * n);
         c.y = wide_fraction16(covered[1], n * n);

@@ -39,6 +39,19 @@ struct LevelOptions {
 /// @param subvoxels  subvoxels per voxel axis; c is clamped to 1 - 1 / (2 columns)
 [[nodiscard]] double mean_depth(const Coverage& c, int subvoxels);
 
+/// The slab of a voxel whose first lobe is of a surface, as it is stored, and what a parent needs
+/// to hold it.
+struct OpenSlab {
+    bool there = false; ///< else the first lobe is of fibers, which have no planes
+    PlaneSlab planes;
+    Vec3d gradient; ///< slab_gradient()
+
+    OpenSlab() = default;
+    /// @param edges  of the voxel, of which only the ratios count
+    HEDDLE_HD OpenSlab(PlaneSlab stored, Vec3d edges)
+        : there(true), planes(stored), gradient(slab_gradient(slab_normal(stored), edges)) {}
+};
+
 /// A voxel before it is stored, without its columns.
 struct OpenVoxel {
     std::int64_t hits = 0; ///< number of occupied subvoxels
@@ -47,6 +60,7 @@ struct OpenVoxel {
     std::uint32_t order = 0; ///< VoxelBlock::merge_order
     std::uint8_t lobe_count = 0;
     std::uint64_t cells = 0; ///< VoxelBlock::occupancy
+    OpenSlab slab;           ///< with fields.slabs
 };
 
 /// The voxels of one level in one block, unquantized, while the level above is built from them.
@@ -108,6 +122,14 @@ struct OpenLevel {
 /// Adds the hits and cells of all children to a parent, and their `seen` by the coverage rule.
 /// @param child  number 4 x + 2 y + z; null: no such child
 void join_seen(OpenVoxel& parent, CoverageRule rule, const std::array<const OpenVoxel*, 8>& child);
+
+/// Makes the slab of a parent hold those of its children.
+/// @param first_lobe  of the parent, before it is stored
+/// @param child       number 4 x + 2 y + z; null: no such child
+void join_slabs(OpenVoxel& parent,
+                const DirectionSums& first_lobe,
+                const LevelOptions& options,
+                const std::array<const OpenVoxel*, 8>& child);
 
 /// Makes level 0 of a block from the stored block. If it has no sums, moments are those of the
 /// stored S.

@@ -213,6 +213,7 @@ std::unique_ptr<UpperVoxel> UpperLevels::close(Node& node, int level, std::size_
     const auto count = static_cast<std::ptrdiff_t>(pool->count);
     out->lobes.assign(pool->sums.begin(), pool->sums.begin() + count);
     if (options_.merge.with_maps) out->maps.assign(pool->maps.begin(), pool->maps.begin() + count);
+    join_slabs(out->voxel, out->lobes.front(), options_, seen);
     node.child = {};
     if (options_.fields.correlation) {
         for (std::size_t axis = 0; axis < 3; ++axis) node.kept[axis] = copy(out->columns[axis]);

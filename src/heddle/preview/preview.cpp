@@ -22,18 +22,18 @@ using preview::PreviewLeaf;
 using preview::PreviewVolume;
 using preview::PreviewVoxel;
 
-/// A ray whose direction is in double, where the renderer's has floats: it starts far from what it
-/// meets, and steps through cells of 128 voxels.
+/// A ray with a direction in double precision (the renderer's has floats): it starts far from the
+/// object and steps through tiles of 128 voxels.
 struct Ray {
     Vec3d origin;
     Vec3d direction; ///< unit
 };
 
-/// Where the eye stands: the object's bounds fill the frame but for 4 % on each side.
+/// The camera. The object's bounds fill the picture, with a margin of 4 % on each side.
 struct Camera {
     Vec3d center, right, up, back; ///< `back` points to the eye
-    double half_height = 1.0;      ///< orthographic; scene units
-    double distance = 0.0;         ///< perspective: of the eye from `center`; 0: orthographic
+    double half_height = 1.0;      ///< of an orthographic picture, scene units
+    double distance = 0.0;         ///< from the eye to `center`; 0: orthographic
     double tangent = 0.0;          ///< of half the field of view
     double depth = 1.0;            ///< rays start this far from `center`
 
@@ -110,7 +110,8 @@ struct Walk {
         return next.x < next.y ? (next.x < next.z ? 0 : 2) : (next.y < next.z ? 1 : 2);
     }
     [[nodiscard]] double end() const { return next[axis()]; }
-    /// To the next cell; false when that lies outside [lo, hi], by rounding before t says so.
+    /// Moves to the next cell. Returns false if it is outside [lo, hi]; by rounding, this may
+    /// happen before t reaches the end.
     bool advance(Vec3i lo, Vec3i hi) {
         const int a = axis();
         at[a] += step[a];
@@ -134,7 +135,7 @@ Vec3f heat(float x) { // blue, green, yellow, red
             std::clamp(1.0f - 2.2f * x, 0.0f, 1.0f)};
 }
 
-/// Sums what a ray meets, front to back.
+/// Composites the voxels along a ray, front to back.
 class Painter {
 public:
     Painter(const PreviewVolume& scene, const PreviewOptions& options, Vec3d back)
@@ -158,11 +159,12 @@ public:
 private:
     struct RayState {
         Vec3d p, d;   ///< voxels
-        Vec3f weight; ///< d: what a voxel's depth along a counts per unit of t
+        Vec3f weight; ///< d in floats: voxels that the ray crosses along each axis per unit of t
         Vec3f color;
         float through;
-        double sheet_end = -std::numeric_limits<double>::infinity(); ///< t where it was last met
-        float sheet_left = 1.0f; ///< what the flat voxels met one after the other left of 1
+        /// t at which the last voxel of a flat surface ended
+        double sheet_end = -std::numeric_limits<double>::infinity();
+        float sheet_left = 1.0f; ///< part of the ray that this surface has not covered yet
     };
     bool clip(Vec3d p, Vec3d d, double& t, double& t_end) const {
         t = 0.0;
@@ -229,16 +231,17 @@ private:
             s.through *
             (flat ? hidden_by_sheet(s, v, k, t, leave)
                   : 1.0f - std::exp(-heddle::length(k * s.weight) * static_cast<float>(leave - t)));
-        // the light stands at the eye: what lies behind other voxels is in their shadow
+        // the light is at the eye: a voxel behind others is in their shadow
         const float light = options_.color == PreviewColor::Albedo ? 0.5f + 0.5f * s.through : 1.0f;
         s.color = s.color + shade(v, leaf) * (hidden * light);
         s.through -= hidden;
     }
 
-    /// What of the light a voxel of a flat surface takes: the surface's projected area, A n d, over
-    /// the voxel's, with A n_a = c_a h^2 seen along the axes. A surface is met wherever the ray
-    /// enters the voxel, and voxels of one surface share it: what one of them covers, the next does
-    /// not. As a medium, a surface at a slant would have holes at every step from layer to layer.
+    /// Returns the opacity of a voxel of a flat surface: the projected area of the surface, A n d,
+    /// over that of the voxel, where A n_a = c_a h^2 along each axis. It does not depend on where
+    /// the ray enters the voxel. Voxels of one surface share the ray: the next voxel does not cover
+    /// again what the one before it covered. A slanted surface that is rendered as a medium would
+    /// have a hole wherever it passes from one layer of voxels to the next.
     float
     hidden_by_sheet(RayState& s, const PreviewVoxel& v, Vec3f k, double t, double leave) const {
         float surface = 0.0f;
@@ -276,8 +279,9 @@ private:
         return {};
     }
 
-    /// A light at the eye: sin to a fiber's tangent [Kajiya 1989], |cos| to a normal; both less for
-    /// wide lobes, and a highlight on what is narrow.
+    /// Shades a voxel by a light at the eye: the sine of the angle to a fiber's tangent [Kajiya
+    /// 1989] or the cosine of that to a normal. Wide lobes depend less on the angle; narrow ones
+    /// have a highlight.
     [[nodiscard]] Vec3f lit(const PreviewVoxel& v, Vec3f axis) const {
         const Vec3f root{static_cast<float>(v.color[0]) / 255.0f,
                          static_cast<float>(v.color[1]) / 255.0f,

@@ -16,7 +16,7 @@ std::uint8_t to_byte(float unit) {
     return static_cast<std::uint8_t>(std::clamp(unit, 0.0f, 1.0f) * 255.0f + 0.5f);
 }
 
-/// -ln(1 - c) as a byte, by coverage.
+/// Returns a table of -ln(1 - c) as bytes, one for each coverage c.
 std::vector<std::uint8_t> make_depths() {
     std::vector<std::uint8_t> table(65536);
     for (std::size_t i = 0; i < table.size(); ++i) {
@@ -27,7 +27,8 @@ std::vector<std::uint8_t> make_depths() {
     return table;
 }
 
-/// How far from a needle: square root of the mean of the two smaller eigenvalues over the largest.
+/// Returns 0 for a needle and 1 for a ball: the square root of the mean of the two smaller
+/// eigenvalues over the largest.
 float lobe_width(const SggxMatrix& S, Vec3f axis) {
     const float largest = dot(axis, multiply(S, axis));
     const float rest = 0.5f * (S.xx + S.yy + S.zz - largest);
@@ -63,7 +64,7 @@ public:
     }
 
 private:
-    /// Of all lobes, by weight: a fiber over a surface shows both.
+    /// Returns the mean of all lobes by weight: a fiber over a surface shows both colours.
     [[nodiscard]] std::array<std::uint8_t, 3> mean_color(const BlockVoxel& voxel) const {
         Vec3f sum;
         float weight = 0.0f;
@@ -94,7 +95,7 @@ private:
 std::vector<PreviewVoxel> pack_block(const Packer& packer, const VoxelBlock& block) {
     std::vector<PreviewVoxel> voxels;
     voxels.reserve(block.coverage.size());
-    // in the leaves' order: first_voxel may have gaps
+    // in the order of leaves, since first_voxel may have gaps
     for_each_voxel(block, [&](const BlockVoxel& v) { voxels.push_back(packer.pack(v)); });
     return voxels;
 }

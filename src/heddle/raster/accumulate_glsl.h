@@ -6,15 +6,15 @@ namespace heddle::raster {
 
 /// GLSL for `accumulate`: traces the centre ray of every column through the fibers themselves.
 inline constexpr std::string_view kAccumulateGlsl = R"(
-// Columns of axis 0 have bit z n + y, of 1 z n + x, of 2 y n + x.
+// The bit of a column along x is z n + y, along y it is z n + x, along z it is y n + x.
 uint column_bit(ivec3 sub) {
     return uint(axis == 0 ? sub.z * subvoxels + sub.y
               : axis == 1 ? sub.z * subvoxels + sub.x
                           : sub.y * subvoxels + sub.x);
 }
 
-// Subvoxels of the column along z whose centres lie in [from, to), subvoxels from the voxel's
-// corner.
+// Sets the bits of the subvoxels of a column along z whose centres lie in [from, to), which is in
+// subvoxels from the voxel's corner.
 void mark_subvoxels(uint words, ivec3 sub, float from, float to) {
     int first = max(int(ceil(from - 0.5)), 0);
     int last = min(int(ceil(to - 0.5)) - 1, subvoxels - 1);
@@ -24,7 +24,7 @@ void mark_subvoxels(uint words, ivec3 sub, float from, float to) {
     atomicOr(pool[words + 6u + uint(bit >> 5)], run << uint(bit & 31));
 }
 
-// The column lies inside a fiber over [from, to).
+// Adds the part [from, to) of a column, which is inside a fiber, to the sums of its voxels.
 void add_run(ivec2 pixel, float from, float to) {
     Local l = local_at(0.5 * (from + to));
     vec3 direction = direction_of(l);
@@ -62,12 +62,12 @@ float signed_depth(float t) {
     return distance_at(l.at) * l.scale;
 }
 
-// Goes on until the sign of d is no longer `side`; t is then where it changes, or `end`.
-void advance(inout March m, float side, float end, float speed, float least) {
+// Advances t until d no longer has the sign of `side`. Then t is where the sign changes, or `end`.
+void advance(inout March m, float side, float end, float speed, float min_step) {
     for (int i = 0; i < 1024; ++i) {
         m.last_d = m.d;
         m.last_t = m.t;
-        m.t += max(abs(m.d) / speed, least);
+        m.t += max(abs(m.d) / speed, min_step);
         if (m.t >= end) {
             m.t = end;
             return;
@@ -84,20 +84,19 @@ void advance(inout March m, float side, float end, float speed, float least) {
 void draw_pixel(ivec2 pixel) {
     vec2 range = start_column(pixel);
     if (!(range.x < range.y)) return;
-    // how fast the ray moves over the section, at most
+    // an upper bound of the ray's speed over the section
     float lean = along[axis];
     float speed = sqrt(max(1.0 - lean * lean, 0.0)) +
                   abs(tangent_a.w) / max(chord, 1e-6) * sizes.z * abs(lean) + bend + 0.02;
-    float least = clamp(0.25 * sizes.y * place_a.w, 0.02, 0.5);
+    float min_step = clamp(0.25 * sizes.y * center_a.w, 0.02, 0.5);
     March m = March(range.x, 0.0, 0.0, range.x);
     m.d = signed_depth(m.t);
-    // a run an iteration: where many rays go side by side, they wait for each other at its end
-    // alone
+    // one run per iteration: rays that are traced side by side wait for each other only at its end
     for (int run = 0; run < 1024 && m.t < range.y; ++run) {
-        if (m.d > 0.0) advance(m, 1.0, range.y, speed, least);
+        if (m.d > 0.0) advance(m, 1.0, range.y, speed, min_step);
         if (m.t >= range.y) break;
         float from = m.t;
-        advance(m, -1.0, range.y, speed, least);
+        advance(m, -1.0, range.y, speed, min_step);
         add_run(pixel, from, m.t);
     }
 }

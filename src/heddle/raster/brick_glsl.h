@@ -4,7 +4,7 @@
 
 namespace heddle::raster {
 
-/// GLSL: the lattice, and the bricks of 8 x 8 x 8 voxels that the slab between two slices may
+/// GLSL: the lattice, and the bricks of 8 x 8 x 8 voxels that the segment between two slices may
 /// touch. Indices are relative to the origin. Needs kSpanGlsl.
 inline constexpr std::string_view kBrickGlsl = R"(
 uniform ivec3 voxel_lo;    // [lo, hi)
@@ -40,7 +40,7 @@ bool touches(BrickBox box, ivec3 brick) {
 }
 )";
 
-/// GLSL, one slice per item: sets the bit of each brick that the slab after it may touch.
+/// GLSL, one slice per item: sets the bit of each brick that the segment after it may touch.
 inline constexpr std::string_view kMarkGlsl = R"(
 layout(std430, binding = 1) buffer Marks { uint marks[]; };
 uniform uint slice_count;
@@ -60,15 +60,16 @@ void main() {
 }
 )";
 
-/// GLSL, compute: the number of invocations that share a slab of a list. 8 are the fastest: a
-/// vector of the software driver. If a slab has few pixels, most of 32 would have none.
-inline constexpr std::string_view kSlabLanesGlsl = R"(
-const uint kSlabLanes = 8u;
+/// GLSL, compute: the number of invocations that share a segment of a list. 8 are the fastest,
+/// since this is the vector width of the software driver. Of 32, most would have no pixel of a
+/// small segment.
+inline constexpr std::string_view kSegmentLanesGlsl = R"(
+const uint kSegmentLanes = 8u;
 )";
 
-/// GLSL, one slice per item: lists the slices whose slab may touch a brick of the batch, for an
-/// indirect draw of four corners each or for groups of kSlabLanes invocations each. Needs
-/// kSlabLanesGlsl.
+/// GLSL, one slice per item: lists the slices whose segment may touch a brick of the batch, for an
+/// indirect draw of four corners each or for groups of kSegmentLanes invocations each. Needs
+/// kSegmentLanesGlsl.
 inline constexpr std::string_view kListGlsl = R"(
 layout(std430, binding = 1) readonly buffer Slots { uint slot_of[]; };
 layout(std430, binding = 2) writeonly buffer List { uint list[]; };
@@ -77,12 +78,12 @@ layout(std430, binding = 3) buffer Draw {
     uint groups_x; uint groups_y; uint groups_z;
 };
 uniform uint slice_count;
-const uint kGroupsAcross = 32768u; // every driver takes 65535 along an axis
+const uint kGroupsAcross = 32768u; // every driver allows 65535 along an axis
 
 void add_to_list(uint number) {
     uint rank = atomicAdd(listed, 1u);
     list[rank] = number;
-    uint group = rank * kSlabLanes / gl_WorkGroupSize.x;
+    uint group = rank * kSegmentLanes / gl_WorkGroupSize.x;
     atomicMax(groups_x, min(group + 1u, kGroupsAcross));
     atomicMax(groups_y, group / kGroupsAcross + 1u);
 }

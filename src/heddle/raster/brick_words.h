@@ -9,7 +9,7 @@
 namespace heddle::raster {
 
 /// 32-bit words of a voxel's sums in the driver's memory, and of a brick's 512 voxels
-/// (slab_glsl.h).
+/// (segment_glsl.h).
 constexpr std::size_t kVoxelWords = 32;
 constexpr std::size_t kBrickWords = 512 * kVoxelWords;
 

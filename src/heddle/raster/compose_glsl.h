@@ -7,13 +7,13 @@ namespace heddle::raster {
 /// GLSL for `last`, `average` and `max`: the slice's alpha at subvoxels, as one density per voxel.
 inline constexpr std::string_view kComposeGlsl = R"(
 uniform int policy;       // 0 last, 1 average, 2 max
-uniform int pick;         // of `last`: 0 finds which fragment is the last, 1 takes its alpha
-uniform uint first_slice; // of the buffer, over all
+uniform int pick;         // for `last`: pass 0 finds the last fragment, pass 1 stores its alpha
+uniform uint first_slice; // number of the buffer's first slice among all slices
 
 // Fragments of a slice are ordered by their subvoxel.
 uint order_of(ivec3 at) {
     ivec3 sub = at & (subvoxels - 1);
-    return ((first_slice + slab) << 9 | uint((sub.x * 8 + sub.y) * 8 + sub.z)) + 1u;
+    return ((first_slice + segment) << 9 | uint((sub.x * 8 + sub.y) * 8 + sub.z)) + 1u;
 }
 
 void compose(uint words, uint alpha, ivec3 at) {
@@ -41,7 +41,7 @@ void draw_pixel(ivec2 pixel) {
         if (!(lo < hi)) continue;
         Local l = local_at(0.5 * (lo + hi));
         if (max(abs(l.at.x), abs(l.at.y)) > sizes.x) continue;
-        float alpha = textureLod(section_color, layer_place(l.at), 0.0).a;
+        float alpha = textureLod(section_color, layer_point(l.at), 0.0).a;
         uint level = uint(round(255.0 * alpha));
         if (level == 0u && policy != 1) continue;
         at[axis] = k;

@@ -56,8 +56,8 @@ void expect_same(const Geometry& geometry,
     EXPECT_TRUE(drawn == by(RasterPath::Compute)) << what; // not EQ: it would print them all
 }
 
-TEST(RasterPath, BothGiveTheSameBitsOfSlabsThatAreManyDispatches) {
-    // 120 subvoxels of radius: up to 10000 pixels a slab, with 150 fibers to be passed by each
+TEST(RasterPath, BothGiveTheSameBitsOfSegmentsThatAreManyDispatches) {
+    // 120 subvoxels of radius: up to 10000 pixels a segment, with 150 fibers to be passed by each
     const Geometry yarn = straight_yarn({0.8f, 0.5f, 0.33f}, slice_yarn(0.15f, 150));
     VoxelizeOptions options = options_of(0.01);
     options.bounds = Bounds{{0.0, -1.0, -1.0}, {0.3, 1.0, 1.0}};
@@ -114,7 +114,7 @@ TEST(RasterPath, WhereNoneIsChosenBothAreTriedAndTheDrawnSumsAreTheirs) {
         slice::place_slices(context, yarn, sections, units, {});
     const std::vector<TouchedBlock> blocks =
         find_blocks(context, make_mark_program(), grid, chunks);
-    SlabResources kit(context, RasterPath::Fragment, Composition::Accumulate);
+    SegmentResources kit(context, RasterPath::Fragment, Composition::Accumulate);
     const slice::SectionTextures textures(sections);
     BrickRasterizer rasterizer(context, kit, grid, textures, chunks,
                                {.weight_bits = 8, .memory_bytes = 1 << 26, .bricks = 1 << 20});

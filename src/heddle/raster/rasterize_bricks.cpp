@@ -24,17 +24,18 @@ std::vector<std::uint32_t> materials_of(std::span<const slice::SliceChunk> chunk
 
 std::size_t
 capacity_of(const opengl::Context& context, const DrawOptions& options, std::size_t materials) {
-    const std::int64_t most =
+    const std::int64_t max_bytes =
         std::min<std::int64_t>(context.limits().storage_bytes, options.memory_bytes) /
         static_cast<std::int64_t>(std::max<std::size_t>(materials, 1));
-    const std::size_t fit = std::max(static_cast<std::size_t>(most) / kBrickBytes, kBlockBricks);
+    const std::size_t fit =
+        std::max(static_cast<std::size_t>(max_bytes) / kBrickBytes, kBlockBricks);
     return std::min(fit, static_cast<std::size_t>(options.bricks));
 }
 
 std::uint32_t most_slices(std::span<const slice::SliceChunk> chunks) {
-    std::uint32_t most = 0;
-    for (const slice::SliceChunk& c : chunks) most = std::max(most, c.count);
-    return most;
+    std::uint32_t max_count = 0;
+    for (const slice::SliceChunk& c : chunks) max_count = std::max(max_count, c.count);
+    return max_count;
 }
 
 void check_last(std::span<const slice::SliceChunk> chunks, Composition composition) {
@@ -49,7 +50,7 @@ void check_last(std::span<const slice::SliceChunk> chunks, Composition compositi
 } // namespace
 
 BrickRasterizer::BrickRasterizer(const opengl::Context& context,
-                                 SlabResources& kit,
+                                 SegmentResources& kit,
                                  const BrickGrid& grid,
                                  const slice::SectionTextures& textures,
                                  std::span<const slice::SliceChunk> chunks,
@@ -84,21 +85,21 @@ RasterWindow BrickRasterizer::choose(std::span<const TouchedBlock> blocks,
     Vec3i hi;
     for (std::size_t i = batch.begin; i < blocks.size(); ++i) {
         if (batch.bricks + blocks[i].bricks.size() > capacity_) break;
-        Vec3i least = lo;
-        Vec3i most = hi;
+        Vec3i low = lo;
+        Vec3i high = hi;
         for (const std::uint32_t number : blocks[i].bricks) {
             const Vec3i brick = grid_.brick(number);
             const bool first = i == batch.begin && number == blocks[i].bricks.front();
             for (int a = 0; a < 3; ++a) {
-                least[a] = first ? brick[a] : std::min(least[a], brick[a]);
-                most[a] = first ? brick[a] + 1 : std::max(most[a], brick[a] + 1);
+                low[a] = first ? brick[a] : std::min(low[a], brick[a]);
+                high[a] = first ? brick[a] + 1 : std::max(high[a], brick[a] + 1);
             }
         }
-        const Vec3i size = most - least;
-        const std::int32_t view = std::max({size.x, size.y, size.z}) * kBrickEdge * n;
-        if (i > batch.begin && view > context_.limits().viewport) break;
-        lo = least;
-        hi = most;
+        const Vec3i size = high - low;
+        const std::int32_t window = std::max({size.x, size.y, size.z}) * kBrickEdge * n;
+        if (i > batch.begin && window > context_.limits().viewport) break;
+        lo = low;
+        hi = high;
         batch.first_slot.push_back(batch.bricks);
         batch.bricks += blocks[i].bricks.size();
         batch.end = i + 1;
@@ -125,19 +126,19 @@ void BrickRasterizer::list_slices(const slice::SliceChunk& chunk) {
     opengl::finish_writes();
 }
 
-void BrickRasterizer::draw_chunk(const slice::SliceChunk& chunk, const RasterWindow& view) {
+void BrickRasterizer::draw_chunk(const slice::SliceChunk& chunk, const RasterWindow& window) {
     chunk.slices.bind_storage(0);
     slot_buffer_.bind_storage(1);
     list_slices(chunk);
     pass_->program().set("first_slice", chunk.first);
     pool_.bind_storage(3);
     textures_.bind();
-    pass_->draw(command_, view);
+    pass_->draw(command_, window);
 }
 
-void BrickRasterizer::draw_material(std::uint32_t material, const RasterWindow& view) {
+void BrickRasterizer::draw_material(std::uint32_t material, const RasterWindow& window) {
     for (const slice::SliceChunk& chunk : chunks_) {
-        if (chunk.material == material) draw_chunk(chunk, view);
+        if (chunk.material == material) draw_chunk(chunk, window);
     }
 }
 
@@ -166,14 +167,14 @@ RasterBatch BrickRasterizer::draw(std::span<const TouchedBlock> blocks, std::siz
 
 RasterBatch BrickRasterizer::draw_batch(std::span<const TouchedBlock> blocks, std::size_t begin) {
     RasterBatch batch{.begin = begin, .end = begin, .first_slot = {}, .materials = {}};
-    const RasterWindow view = choose(blocks, batch);
+    const RasterWindow window = choose(blocks, batch);
     set_slots(blocks, batch);
     for (const std::uint32_t material : materials_) {
         pool_.clear();
         const int picks = kit_.composition() == Composition::Last ? 2 : 1;
         for (std::int32_t pick = 0; pick < picks; ++pick) {
             pass_->program().set("pick", pick);
-            draw_material(material, view);
+            draw_material(material, window);
             opengl::finish_writes();
         }
         RasterMaterial drawn{.form = {.subvoxels = grid_.units.n,

@@ -2,7 +2,7 @@
 
 #include <heddle/raster/brick_grid.h>
 #include <heddle/raster/brick_words.h>
-#include <heddle/raster/slab_pass.h>
+#include <heddle/raster/segment_pass.h>
 #include <heddle/slice/section_textures.h>
 
 #include <cstdint>
@@ -39,7 +39,7 @@ class BrickRasterizer {
 public:
     /// @throws Error  OutOfMemory; Unsupported: `Last` with more than 2^23 slices
     BrickRasterizer(const opengl::Context& context,
-                    SlabResources& kit,
+                    SegmentResources& kit,
                     const BrickGrid& grid,
                     const slice::SectionTextures& textures,
                     std::span<const slice::SliceChunk> chunks,
@@ -56,19 +56,19 @@ private:
     void use_path(RasterPath path);
     [[nodiscard]] RasterPath try_paths(std::span<const TouchedBlock> blocks, std::size_t begin);
     [[nodiscard]] RasterBatch draw_batch(std::span<const TouchedBlock> blocks, std::size_t begin);
-    void draw_material(std::uint32_t material, const RasterWindow& view);
-    void draw_chunk(const slice::SliceChunk& chunk, const RasterWindow& view);
+    void draw_material(std::uint32_t material, const RasterWindow& window);
+    void draw_chunk(const slice::SliceChunk& chunk, const RasterWindow& window);
     void list_slices(const slice::SliceChunk& chunk);
 
     const opengl::Context& context_;
-    SlabResources& kit_;
+    SegmentResources& kit_;
     const BrickGrid& grid_;
     std::span<const slice::SliceChunk> chunks_;
     DrawOptions options_;
     std::size_t capacity_; ///< bricks of a batch
     std::vector<std::uint32_t> materials_;
     const slice::SectionTextures& textures_;
-    const SlabPass* pass_ = nullptr;
+    const SegmentPass* pass_ = nullptr;
     std::vector<std::uint32_t> slots_; ///< by brick: slot + 1, or 0
     opengl::Buffer slot_buffer_;
     const opengl::Buffer& pool_;

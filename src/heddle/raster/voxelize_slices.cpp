@@ -6,7 +6,7 @@
 #include <heddle/raster/brick_grid.h>
 #include <heddle/raster/brick_words.h>
 #include <heddle/raster/rasterize_bricks.h>
-#include <heddle/raster/slab_pass.h>
+#include <heddle/raster/segment_pass.h>
 #include <heddle/voxel/block_sink.h>
 #include <heddle/voxelize/block_worker.h>
 
@@ -70,7 +70,8 @@ float thinnest_fiber(const Geometry& geometry,
     return std::max(least / static_cast<float>(units.unit), 1e-6f);
 }
 
-/// Refuses slabs whose box has too many bricks: software drivers end a loop after 65535 iterations.
+/// Refuses segments whose box has too many bricks: software drivers end a loop after 65535
+/// iterations.
 void check_thickness(const slice::SectionLayers& sections,
                      const Geometry& geometry,
                      const LatticeUnits& units) {
@@ -181,7 +182,7 @@ struct SliceVoxelizer::Kept {
     opengl::Context driver;
     slice::PlacePrograms place;
     opengl::Program mark = make_mark_program();
-    SlabResources kit;
+    SegmentResources kit;
     slice::SectionLayers sections;
     std::optional<slice::SectionTextures> textures;
 

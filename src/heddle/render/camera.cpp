@@ -5,19 +5,20 @@
 
 namespace heddle {
 
-Camera::Camera(const CameraParameters& view, std::int32_t width, std::int32_t height)
-    : view_(view) {
-    forward_ = normalize(view.target - view.eye);
-    const Vec3d right = normalize(cross(forward_, view.up));
+Camera::Camera(const CameraParameters& parameters, std::int32_t width, std::int32_t height)
+    : parameters_(parameters) {
+    forward_ = normalize(parameters.target - parameters.eye);
+    const Vec3d right = normalize(cross(forward_, parameters.up));
     const Vec3d down = cross(forward_, right);
-    const double whole =
-        view.orthographic ? view.view_height : 2.0 * std::tan(0.5 * view.view_angle);
+    const double whole = parameters.orthographic ? parameters.view_height
+                                                 : 2.0 * std::tan(0.5 * parameters.view_angle);
     const double pixel = whole / static_cast<double>(height);
     right_ = right * pixel;
     down_ = down * pixel;
     center_x_ = 0.5 * static_cast<double>(width);
     center_y_ = 0.5 * static_cast<double>(height);
-    if (!(view_.focus_distance > 0.0)) view_.focus_distance = length(view.target - view.eye);
+    if (!(parameters_.focus_distance > 0.0))
+        parameters_.focus_distance = length(parameters.target - parameters.eye);
 }
 
 Ray Camera::ray(float x, float y, std::array<float, 2> lens) const {
@@ -25,23 +26,23 @@ Ray Camera::ray(float x, float y, std::array<float, 2> lens) const {
                         down_ * (static_cast<double>(y) - center_y_);
     const auto pixel = static_cast<float>(length(right_));
     Ray out;
-    if (view_.orthographic) {
-        out.origin = view_.eye + aside;
+    if (parameters_.orthographic) {
+        out.origin = parameters_.eye + aside;
         out.direction = to_float(forward_);
         out.width = pixel;
         return out;
     }
     const Vec3d toward = forward_ + aside;
-    out.origin = view_.eye;
+    out.origin = parameters_.eye;
     out.direction = to_float(normalize(toward));
     out.spread = pixel / static_cast<float>(length(toward));
-    if (view_.lens_radius > 0.0) {
-        const double r = view_.lens_radius * std::sqrt(static_cast<double>(lens[0]));
+    if (parameters_.lens_radius > 0.0) {
+        const double r = parameters_.lens_radius * std::sqrt(static_cast<double>(lens[0]));
         const double phi = 2.0 * std::numbers::pi * static_cast<double>(lens[1]);
-        const Vec3d place =
+        const Vec3d on_lens =
             normalize(right_) * (r * std::cos(phi)) + normalize(down_) * (r * std::sin(phi));
-        out.origin = view_.eye + place;
-        out.direction = to_float(normalize(toward * view_.focus_distance - place));
+        out.origin = parameters_.eye + on_lens;
+        out.direction = to_float(normalize(toward * parameters_.focus_distance - on_lens));
     }
     return out;
 }

@@ -25,7 +25,7 @@ struct CameraParameters {
 class Camera {
 public:
     /// @param width, height  px
-    Camera(const CameraParameters& view, std::int32_t width, std::int32_t height);
+    Camera(const CameraParameters& parameters, std::int32_t width, std::int32_t height);
 
     /// Returns the ray through a point of the picture.
     /// @param x, y  px from the upper left corner
@@ -34,7 +34,7 @@ public:
     [[nodiscard]] Ray ray(float x, float y, std::array<float, 2> lens) const;
 
 private:
-    CameraParameters view_;
+    CameraParameters parameters_;
     Vec3d forward_, right_, down_; ///< right_, down_: a pixel (perspective: at distance 1)
     double center_x_, center_y_;
 };

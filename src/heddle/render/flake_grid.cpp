@@ -210,18 +210,18 @@ void FlakeMedium::walk(const GridRay& ray, const Visit& visit) const {
     float t = 0.0f;
     while (t < end) {
         const Vec3i cell = local.base + at;
-        const LeafTable<3>::LeafLookup place = grid_->find_leaf(cell);
-        const std::int32_t mask = ~(place.size - 1);
+        const LeafTable<3>::LeafLookup found = grid_->find_leaf(cell);
+        const std::int32_t mask = ~(found.size - 1);
         const Vec3i low = Vec3i{cell.x & mask, cell.y & mask, cell.z & mask} - local.base;
-        const detail::Exit exit = detail::find_exit(local, low, place.size);
+        const detail::Exit exit = detail::find_exit(local, low, found.size);
         const float out = exit.t > t ? exit.t : t;
-        if (place.leaf != FlakeGrid::kNone) {
+        if (found.leaf != FlakeGrid::kNone) {
             const Vec3f corner{static_cast<float>(low.x), static_cast<float>(low.y),
                                static_cast<float>(low.z)};
             const Vec3f from = local.from - corner;
-            if (!visit(place.leaf, from, local.direction, t, std::min(out, end))) return;
+            if (!visit(found.leaf, from, local.direction, t, std::min(out, end))) return;
         }
-        at = detail::step_over(local, low, place.size, exit);
+        at = detail::step_over(local, low, found.size, exit);
         t = out;
     }
 }

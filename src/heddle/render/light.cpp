@@ -16,11 +16,11 @@ float luminance(Vec3f c) {
 }
 
 /// Returns the coordinates of a direction in the map, both in [0, 1].
-struct MapPlace {
+struct MapPoint {
     float u, v;
 };
 
-MapPlace place_of(const EnvironmentMap& map, Vec3f d) {
+MapPoint point_of(const EnvironmentMap& map, Vec3f d) {
     const Vec3f right = cross(map.front, map.up);
     const float turn = std::atan2(dot(d, right), dot(d, map.front));
     return {0.5f + turn / (2.0f * kPi), std::acos(std::clamp(dot(d, map.up), -1.0f, 1.0f)) / kPi};
@@ -177,7 +177,7 @@ float LightSet::map_pdf(std::size_t i, Vec3f direction) const {
     const MapTable& table = tables_[i];
     const auto w = static_cast<std::size_t>(map.width);
     const auto h = static_cast<std::size_t>(map.height);
-    const MapPlace at = place_of(map, direction);
+    const MapPoint at = point_of(map, direction);
     const std::size_t x = std::min(static_cast<std::size_t>(at.u * static_cast<float>(w)), w - 1);
     const std::size_t y = std::min(static_cast<std::size_t>(at.v * static_cast<float>(h)), h - 1);
     const float row = table.rows[y + 1] - table.rows[y];
@@ -189,7 +189,7 @@ float LightSet::map_pdf(std::size_t i, Vec3f direction) const {
 
 Vec3f LightSet::map_radiance(const Light& light, Vec3f direction) {
     const EnvironmentMap& map = *light.map;
-    const MapPlace at = place_of(map, direction);
+    const MapPoint at = point_of(map, direction);
     const auto x =
         std::min(static_cast<std::int32_t>(at.u * static_cast<float>(map.width)), map.width - 1);
     const auto y =

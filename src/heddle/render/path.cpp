@@ -1,6 +1,7 @@
 #include <heddle/render/path.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -31,6 +32,7 @@ struct Event {
     bool fiber = false; ///< in a volume, as VolumeScatter
     float radius = 0.0f;
     float edge = 0.0f;
+    SheetStart sheet{}; ///< in a volume: the sheet that was met
 };
 
 class PathTracer {
@@ -38,10 +40,12 @@ public:
     PathTracer(const PathScene& scene, const PathOptions& options, PathSampler& sampler)
         : scene_(scene), options_(options), sampler_(sampler) {
         choice_ = {options.level, options.level_offset, sampler.stream().uniform()};
+        sheet_ = to_unit_float(hash64(std::bit_cast<std::uint32_t>(choice_.draw), 0));
     }
 
     PathSample trace(Ray ray) {
         PathSample out;
+        ray.sheet = sheet_;
         if (options_.with_transmittance) out.transmittance = transmittance(ray);
         Vec3f throughput{1, 1, 1};
         float scatter_pdf = 0.0f; // of the ray's direction; 0: from the camera
@@ -121,6 +125,9 @@ private:
         event.level = static_cast<float>(nearest.level);
         event.normal = {};
         event.offset = 0.0f;
+        if (nearest.side != 0) {
+            event.sheet = {stopped_in, nearest.level, nearest.voxel, nearest.side};
+        }
         return true;
     }
 
@@ -139,6 +146,7 @@ private:
     [[nodiscard]] static float clear_of(const Event& event, Vec3f direction) {
         constexpr float kMinCosine = 0.25f;
         if (event.fiber) return 0.0f;
+        if (event.sheet.volume != nullptr) return 0.0f; // rays know where it is
         const float cosine = std::fabs(dot(direction, event.scatterer.axis));
         return event.edge / std::max(cosine, kMinCosine);
     }
@@ -149,8 +157,10 @@ private:
     }
 
     /// Returns a ray that starts at an event, offset from its surface.
-    [[nodiscard]] static Ray
-    leave(const Event& event, Vec3d at, Vec3f wi, Vec3f direction, float width, float spread) {
+    [[nodiscard]] Ray leave(
+        const Event& event, Vec3d at, Vec3f wi, Vec3f direction, float width, float spread) const {
+        SheetStart start = event.sheet;
+        if (dot(direction, event.scatterer.axis) < 0.0f) start.side = -start.side;
         const float side = dot(direction, event.normal) < 0.0f ? -event.offset : event.offset;
         return {at + to_double(event.normal * side),
                 direction,
@@ -158,7 +168,9 @@ private:
                 width,
                 spread,
                 clear_of(event, direction),
-                start_of(event, wi, direction)};
+                start_of(event, wi, direction),
+                sheet_,
+                start};
     }
 
     [[nodiscard]] Vec3f direct_light(const Event& event, Vec3d at, Vec3f wi, float width) {
@@ -208,6 +220,7 @@ private:
     const PathOptions& options_;
     PathSampler& sampler_;
     LevelChoice choice_;
+    float sheet_ = 0.5f; ///< Ray::sheet of all rays
 };
 
 } // namespace

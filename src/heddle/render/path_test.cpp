@@ -1,7 +1,9 @@
 #include <heddle/render/path.h>
-#include <heddle/render/volume/test_volume.h>
+#include <heddle/render/volume/test_sheet.h>
 
 #include <gtest/gtest.h>
+
+#include <array>
 
 namespace heddle {
 namespace {
@@ -159,6 +161,59 @@ public:
 private:
     ScatterMaterial material_;
 };
+
+/// Where the middle of a sphere of voxels is.
+constexpr Vec3d kMiddle{0.31, 0.77, 0.13};
+
+PathScene sphere_scene(double radius, const ScatterMaterial& material) {
+    const auto level = sheet_level(sphere_at(kMiddle, radius), static_cast<int>(radius) + 2);
+    PathScene scene;
+    scene.volumes.push_back(VolumeInstance({level}, {}, {0}));
+    scene.materials = {material};
+    return scene;
+}
+
+/// Returns the radiance of a sphere seen along z, as a volume and traced, under one sun.
+std::array<MeanOf, 2> sphere_under_sun(double radius, double degrees) {
+    ScatterMaterial matte = white(ScatterModel::Surface);
+    matte.albedo = {0.8f, 0.8f, 0.8f};
+    PathScene volume = sphere_scene(radius, matte);
+    PathScene traced;
+    traced.surfaces = std::make_shared<Ball>(matte);
+    const double angle = degrees * 3.14159265 / 180.0;
+    Light sun;
+    sun.kind = LightKind::Directional;
+    sun.direction = to_float(Vec3d{-std::sin(angle), 0, -std::cos(angle)});
+    volume.lights = traced.lights = LightSet({sun}, 5.0);
+    PathOptions options;
+    options.level = 0;
+    std::array<MeanOf, 2> out;
+    StreamRandom random{5};
+    for (std::uint64_t i = 0; i < 12000; ++i) {
+        const auto aside = [&] { return 2.4 * static_cast<double>(random.uniform()) - 1.2; };
+        const Vec3d from{aside(), aside(), 3.0};
+        PathSampler a(1, i, 0);
+        PathSampler b(1, i, 0);
+        const Ray ray = ray_along(kMiddle + from * radius, {0, 0, -1});
+        out[0].add(static_cast<double>(trace_path(volume, options, ray, a).radiance.y));
+        const Ray same = ray_along(from, {0, 0, -1});
+        out[1].add(static_cast<double>(trace_path(traced, options, same, b).radiance.y));
+    }
+    return out;
+}
+
+TEST(TracePath, ASphereOfSheetsIsAsBrightAsTheSphere) {
+    for (const double degrees : {0.0, 40.0, 80.0, 130.0}) {
+        const auto [volume, traced] = sphere_under_sun(6.0, degrees);
+        EXPECT_NEAR(volume.mean() / traced.mean(), 1.0, 0.03) << degrees; // the rays are the same
+    }
+}
+
+TEST(TracePath, WhiteSheetsVanishInAWhiteWorld) {
+    PathScene scene = sphere_scene(3.0, white(ScatterModel::Surface));
+    scene.lights = LightSet({constant()}, 5.0);
+    expect_furnace(scene, 2e-3);
+}
 
 TEST(TracePath, WhiteSurfacesVanishInAWhiteWorldAmongVolumes) {
     PathScene scene = scene_of(white(ScatterModel::LambertFiber), MaterialKind::Fiber);

@@ -129,7 +129,7 @@ TEST(Picture, BytesFollowTheSrgbCurve) {
 
 class RenderPass : public ::testing::Test {
 protected:
-    RenderPass() : camera_(view(), 33, 18) {
+    RenderPass() : camera_(parameters(), 33, 18) {
         VoxelMap voxels;
         StreamRandom random{3};
         add_random(voxels, random, {-3, -3, -3}, 6, 200, 0.8);
@@ -139,10 +139,10 @@ protected:
         scene_.lights = LightSet({Light{}}, 5.0);
     }
     ~RenderPass() override { set_thread_count(0); }
-    static CameraParameters view() {
-        CameraParameters view;
-        view.eye = {1, 2, 12};
-        return view;
+    static CameraParameters parameters() {
+        CameraParameters parameters;
+        parameters.eye = {1, 2, 12};
+        return parameters;
     }
     void pass(Picture& picture, std::uint32_t samples) {
         Progress progress;

@@ -24,7 +24,7 @@ void read_generate(TableReader& parent, SceneObject& object) {
     Problems& problems = parent.problems();
     const toml::table* table = parent.table("generate");
     if (table == nullptr) return;
-    TableReader reader(*table, parent.place_of("generate"), "'generate'", problems);
+    TableReader reader(*table, parent.location_of("generate"), "'generate'", problems);
     GenerateOptions options;
     reader.require("kind", "write 'kind = \"knit\"', or another that heddle generate makes");
     if (const auto kind = reader.choose("kind", kind_names())) {
@@ -44,7 +44,7 @@ void read_generate(TableReader& parent, SceneObject& object) {
     try {
         object.generate = resolve(options);
     } catch (const Error& e) {
-        problems.add(reader.place(), e.what());
+        problems.add(reader.location(), e.what());
     }
 }
 
@@ -101,12 +101,12 @@ void read_sources(TableReader& reader, SceneObject& object) {
 void read_materials(TableReader& parent, SceneObject& object, std::vector<MaterialUse>& uses) {
     const toml::table* table = parent.table("materials");
     if (table == nullptr) return;
-    TableReader reader(*table, parent.place_of("materials"), "'materials'", parent.problems());
+    TableReader reader(*table, parent.location_of("materials"), "'materials'", parent.problems());
     for (const auto& [key, node] : *table) {
         std::string name;
         reader.text(key.str(), name);
         if (name.empty()) continue;
-        uses.push_back({reader.place_of(key.str()), name});
+        uses.push_back({reader.location_of(key.str()), name});
         object.materials[std::string(key.str())] = name;
     }
 }
@@ -114,7 +114,7 @@ void read_materials(TableReader& parent, SceneObject& object, std::vector<Materi
 void read_instances(TableReader& reader, SceneObject& object) {
     const Affine own = read_transform(reader);
     for (const toml::table* table : reader.tables("instance")) {
-        TableReader instance(*table, place_of(*table, reader.place().path), "an instance",
+        TableReader instance(*table, location_of(*table, reader.location().path), "an instance",
                              reader.problems());
         object.instances.push_back(read_transform(instance));
         instance.finish();
@@ -131,7 +131,7 @@ void read_instances(TableReader& reader, SceneObject& object) {
     }
     if (object.instances.empty()) {
         reader.problem("instance", "'instance' holds no table",
-                       "drop it for one instance in place");
+                       "drop it for one instance in location");
     }
 }
 

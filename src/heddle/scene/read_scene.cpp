@@ -30,10 +30,10 @@ public:
 private:
     void read_text(const std::string& path, const std::string& text);
     void read_tables(TableReader& file);
-    void include(const std::string& path, const FileLocation& place);
+    void include(const std::string& path, const FileLocation& location);
     void read_materials(TableReader& file);
     void read_objects(TableReader& file);
-    bool define(const std::string& what, const FileLocation& place);
+    bool define(const std::string& what, const FileLocation& location);
 
     Scene scene_;
     Problems problems_;
@@ -49,24 +49,24 @@ std::string canonical(const std::string& path) {
 }
 
 /// Returns false and adds a problem if the same thing was defined before.
-bool SceneDraft::define(const std::string& what, const FileLocation& place) {
-    const auto [at, fresh] = defined_.emplace(what, place);
+bool SceneDraft::define(const std::string& what, const FileLocation& location) {
+    const auto [at, fresh] = defined_.emplace(what, location);
     if (!fresh) {
-        problems_.add(place, str(what, " is defined at ", to_string(at->second), " already"),
+        problems_.add(location, str(what, " is defined at ", to_string(at->second), " already"),
                       "drop or rename one of them");
     }
     return fresh;
 }
 
-void SceneDraft::include(const std::string& path, const FileLocation& place) {
+void SceneDraft::include(const std::string& path, const FileLocation& location) {
     const std::string id = canonical(path);
     if (std::find(open_.begin(), open_.end(), id) != open_.end()) {
-        problems_.add(place, str("'", path, "' includes itself, directly or by others"),
+        problems_.add(location, str("'", path, "' includes itself, directly or by others"),
                       "break the cycle");
         return;
     }
     if (open_.size() >= kMaxDepth) {
-        problems_.add(place, str("files are included ", kMaxDepth, " deep"), "nest them less");
+        problems_.add(location, str("files are included ", kMaxDepth, " deep"), "nest them less");
         return;
     }
     if (read_.count(id) > 0) return;
@@ -74,7 +74,7 @@ void SceneDraft::include(const std::string& path, const FileLocation& place) {
     try {
         text = read_whole_file(path, kMaxBytes);
     } catch (const Error& e) {
-        problems_.add(place, str("cannot include: ", e.what()));
+        problems_.add(location, str("cannot include: ", e.what()));
         return;
     }
     read_text(path, text);
@@ -92,14 +92,14 @@ void SceneDraft::read_text(const std::string& path, const std::string& text) {
 }
 
 void SceneDraft::read_tables(TableReader& file) {
-    const std::string& path = file.place().path;
+    const std::string& path = file.location().path;
     for (const std::string& name : file.texts("include")) {
-        include(scene_form::resolve_path(name, path), file.place_of("include"));
+        include(scene_form::resolve_path(name, path), file.location_of("include"));
     }
     const auto section = [&](const char* key, const auto& read) {
         const toml::table* table = file.table(key);
-        if (table == nullptr || !define(str("[", key, "]"), file.place_of(key))) return;
-        TableReader reader(*table, file.place_of(key), str("[", key, "]"), problems_);
+        if (table == nullptr || !define(str("[", key, "]"), file.location_of(key))) return;
+        TableReader reader(*table, file.location_of(key), str("[", key, "]"), problems_);
         read(reader);
     };
     section("camera", [&](TableReader& r) { scene_.camera = scene_form::read_camera(r); });
@@ -107,7 +107,7 @@ void SceneDraft::read_tables(TableReader& file) {
     section("integrator",
             [&](TableReader& r) { scene_.integrator = scene_form::read_integrator(r); });
     for (const toml::table* table : file.tables("light")) {
-        TableReader reader(*table, scene_form::place_of(*table, path), "a light", problems_);
+        TableReader reader(*table, scene_form::location_of(*table, path), "a light", problems_);
         scene_.lights.push_back(scene_form::read_light(reader));
     }
     read_materials(file);
@@ -118,42 +118,43 @@ void SceneDraft::read_tables(TableReader& file) {
 void SceneDraft::read_materials(TableReader& file) {
     const toml::table* all = file.table("material");
     if (all == nullptr) return;
-    TableReader group(*all, file.place_of("material"), "[material]", problems_);
+    TableReader group(*all, file.location_of("material"), "[material]", problems_);
     for (const auto& [key, node] : *all) {
         const std::string name(key.str());
         const toml::table* table = group.table(name);
         if (table == nullptr) continue;
-        const FileLocation place = group.place_of(name);
-        TableReader reader(*table, place, str("material '", name, "'"), problems_);
+        const FileLocation location = group.location_of(name);
+        TableReader reader(*table, location, str("material '", name, "'"), problems_);
         const ScatterMaterial material = scene_form::read_material(reader);
-        if (define(str("material '", name, "'"), place)) scene_.materials[name] = material;
+        if (define(str("material '", name, "'"), location)) scene_.materials[name] = material;
     }
 }
 
 void SceneDraft::read_objects(TableReader& file) {
     const toml::table* all = file.table("object");
     if (all == nullptr) return;
-    TableReader group(*all, file.place_of("object"), "[object]", problems_);
+    TableReader group(*all, file.location_of("object"), "[object]", problems_);
     for (const auto& [key, node] : *all) {
         const std::string name(key.str());
         const toml::table* table = group.table(name);
         if (table == nullptr) continue;
-        const FileLocation place = group.place_of(name);
-        TableReader reader(*table, place, str("object '", name, "'"), problems_);
+        const FileLocation location = group.location_of(name);
+        TableReader reader(*table, location, str("object '", name, "'"), problems_);
         SceneObject object = scene_form::read_object(reader, name, uses_);
-        if (define(str("object '", name, "'"), place)) scene_.objects.push_back(std::move(object));
+        if (define(str("object '", name, "'"), location))
+            scene_.objects.push_back(std::move(object));
     }
 }
 
 Scene SceneDraft::finish() {
     std::vector<std::string> names;
-    for (const auto& [what, place] : defined_) {
+    for (const auto& [what, location] : defined_) {
         if (what.rfind("material '", 0) == 0) names.push_back(what.substr(10, what.size() - 11));
     }
     for (const MaterialUse& use : uses_) {
         if (std::find(names.begin(), names.end(), use.name) != names.end()) continue;
         const std::string_view near = nearest_name(use.name, names);
-        problems_.add(use.place, str("no material '", use.name, "' in the scene"),
+        problems_.add(use.location, str("no material '", use.name, "' in the scene"),
                       near.empty() ? str("add [material.", use.name, "]")
                                    : str("did you mean '", near, "'?"));
     }

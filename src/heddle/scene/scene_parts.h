@@ -21,7 +21,7 @@ void read_film(TableReader& reader, Scene& scene);
 
 /// A material that an object names; it is looked up after all files are read.
 struct MaterialUse {
-    FileLocation place;
+    FileLocation location;
     std::string name;
 };
 

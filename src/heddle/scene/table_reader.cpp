@@ -35,7 +35,7 @@ bool Range::holds(double x) const {
     return (above ? x > least : x >= least) && (below ? x < most : x <= most);
 }
 
-FileLocation place_of(const toml::node& node, const std::string& path) {
+FileLocation location_of(const toml::node& node, const std::string& path) {
     return {path, static_cast<std::int64_t>(node.source().begin.line)};
 }
 
@@ -44,20 +44,20 @@ std::string resolve_path(const std::string& text, const std::string& from) {
 }
 
 TableReader::TableReader(const toml::table& table,
-                         FileLocation place,
+                         FileLocation location,
                          std::string what,
                          Problems& problems)
-    : table_(table), place_(std::move(place)), what_(std::move(what)), problems_(problems) {}
+    : table_(table), location_(std::move(location)), what_(std::move(what)), problems_(problems) {}
 
-FileLocation TableReader::place_of(std::string_view key) const {
+FileLocation TableReader::location_of(std::string_view key) const {
     const toml::node* node = table_.get(key);
-    return node == nullptr ? place_ : scene_form::place_of(*node, place_.path);
+    return node == nullptr ? location_ : scene_form::location_of(*node, location_.path);
 }
 
 void TableReader::problem(std::string_view key,
                           const std::string& what,
                           const std::string& fix) const {
-    problems_.add(place_of(key), what, fix);
+    problems_.add(location_of(key), what, fix);
 }
 
 void TableReader::require(std::string_view key, const std::string& fix) const {
@@ -183,7 +183,7 @@ void TableReader::path(std::string_view key,
                 str("known: ", join(suffixes, " ", "")));
         return;
     }
-    std::string found = resolve_path(given, place_.path);
+    std::string found = resolve_path(given, location_.path);
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(found, ignored)) {
         problem(key, str("'", key, "': no file '", found, "'"),

@@ -34,13 +34,16 @@ inline constexpr Range kUnit{.least = 0.0, .most = 1.0};
 class TableReader {
 public:
     /// @param what  for messages: "a light of kind 'point'"
-    TableReader(const toml::table& table, FileLocation place, std::string what, Problems& problems);
+    TableReader(const toml::table& table,
+                FileLocation location,
+                std::string what,
+                Problems& problems);
 
     [[nodiscard]] bool has(std::string_view key) const { return table_.contains(key); }
-    [[nodiscard]] const FileLocation& place() const { return place_; }
+    [[nodiscard]] const FileLocation& location() const { return location_; }
     [[nodiscard]] Problems& problems() const { return problems_; }
     /// The location of the key, or that of the table if the key is absent.
-    [[nodiscard]] FileLocation place_of(std::string_view key) const;
+    [[nodiscard]] FileLocation location_of(std::string_view key) const;
     void set_what(std::string what) { what_ = std::move(what); }
     void problem(std::string_view key, const std::string& what, const std::string& fix) const;
     /// Adds a problem if the key is absent.
@@ -83,14 +86,14 @@ private:
     [[nodiscard]] bool in_range(std::string_view key, double x, const Range& range) const;
 
     const toml::table& table_;
-    FileLocation place_;
+    FileLocation location_;
     std::string what_;
     Problems& problems_;
     std::vector<std::string> known_;
 };
 
 /// The location of a node.
-[[nodiscard]] FileLocation place_of(const toml::node& node, const std::string& path);
+[[nodiscard]] FileLocation location_of(const toml::node& node, const std::string& path);
 
 /// `text` resolved relative to the folder of the scene file `from`.
 [[nodiscard]] std::string resolve_path(const std::string& text, const std::string& from);

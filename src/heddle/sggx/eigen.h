@@ -156,12 +156,17 @@ struct SeparatedAxis {
 /// @param M  a second moment (or an S); entries finite
 /// @return   its component of largest magnitude is positive (the first of equals); the x axis where
 ///           all eigenvalues are equal
-[[nodiscard]] HEDDLE_HD inline Vec3f principal_direction(const SymmetricMatrix& M) {
+[[nodiscard]] HEDDLE_HD inline Vec3d principal_axis(const SymmetricMatrix& M) {
     const detail::SeparatedAxis apart = detail::find_separated_axis(detail::to_double(M));
     const Vec3d d = apart.largest ? apart.axis : decompose(M).axis[0]; // no plane needed
     const Vec3d size{std::fabs(d.x), std::fabs(d.y), std::fabs(d.z)};
     const double lead = (size.x >= size.y && size.x >= size.z) ? d.x : size.y >= size.z ? d.y : d.z;
-    return to_float(lead < 0.0 ? d * -1.0 : d);
+    return lead < 0.0 ? d * -1.0 : d;
+}
+
+/// The same, rounded to floats.
+[[nodiscard]] HEDDLE_HD inline Vec3f principal_direction(const SymmetricMatrix& M) {
+    return to_float(principal_axis(M));
 }
 
 } // namespace heddle

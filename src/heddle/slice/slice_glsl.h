@@ -37,11 +37,11 @@ vec3 fiber_direction(vec2 at, float turn, float rise, vec3 normal, vec3 binormal
 }
 )";
 
-/// GLSL: placed slices, and the slab between two of them. Needs kSliceGlsl. Binding 0.
+/// GLSL: placed slices, and the segment between two of them. Needs kSliceGlsl. Binding 0.
 inline constexpr std::string_view kSpanGlsl = R"(
 layout(std430, binding = 0) readonly buffer Slices { Slice slices[]; };
 
-// Half the length of the slab from slice a to b, including what a bend adds to its sections.
+// Half the length of the segment from slice a to b, including what a bend adds to its sections.
 float half_length(Slice a, Slice b, float reach) {
     return 0.5 * length(b.center - a.center) + reach * length(b.tangent - a.tangent);
 }

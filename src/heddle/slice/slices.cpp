@@ -46,7 +46,7 @@ std::uint32_t flags_of(const CurveSet& set, std::size_t curve) {
            (set.basis == Basis::CubicBSpline ? 4u : 0u) | (set.color.empty() ? 0u : 8u);
 }
 
-/// @param lattice  rays follow slabs on the lattice: long slabs would fill most of a block
+/// @param lattice  rays follow segments on the lattice: long segments would fill most of a block
 float spacing_of(double radius_units, double asked, bool lattice) {
     constexpr double kMaxOnLattice = 16.0;
     if (asked > 0.0) return static_cast<float>(asked);
@@ -123,7 +123,7 @@ void add_set(CurveTables& out,
 struct CurveRun {
     std::size_t first = 0, end = 0;
     std::uint64_t slices = 0;
-    std::uint64_t slabs = 0;
+    std::uint64_t segments = 0;
 };
 
 std::vector<CurveRun>
@@ -141,7 +141,7 @@ split_runs(const CurveTables& tables, const std::vector<CourseRow>& courses, std
         if (!same || runs.back().slices + count > most) runs.push_back({.first = c, .end = c});
         runs.back().end = c + 1;
         runs.back().slices += count;
-        runs.back().slabs += count > 0 ? count - 1 : 0;
+        runs.back().segments += count > 0 ? count - 1 : 0;
     }
     return runs;
 }
@@ -255,7 +255,7 @@ std::vector<SliceChunk> place_slices(const opengl::Context& context,
         if (run.slices == 0) continue;
         SliceChunk chunk{.slices = opengl::Buffer("slices", run.slices * sizeof(PlacedSlice)),
                          .count = static_cast<std::uint32_t>(run.slices),
-                         .slabs = static_cast<std::uint32_t>(run.slabs),
+                         .segments = static_cast<std::uint32_t>(run.segments),
                          .first = first[run.first],
                          .material = tables.materials[run.first]};
         chunk.slices.bind_storage(7);

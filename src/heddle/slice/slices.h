@@ -31,8 +31,8 @@ static_assert(sizeof(PlacedSlice) == 64, "as in slice_glsl.h");
 struct SliceChunk {
     opengl::Buffer slices;
     std::uint32_t count = 0;
-    std::uint32_t slabs = 0; ///< slabs between two slices of a yarn
-    std::uint32_t first = 0; ///< index of its first slice among all chunks
+    std::uint32_t segments = 0; ///< segments between two slices of a yarn
+    std::uint32_t first = 0;    ///< index of its first slice among all chunks
     std::uint32_t material = 0;
 };
 

@@ -28,8 +28,8 @@ std::vector<PlacedSlice> place(const Geometry& geometry, const LatticeUnits& uni
     std::vector<PlacedSlice> out;
     for (const SliceChunk& c : place_slices(context, geometry, sections, units, {})) {
         const std::vector<PlacedSlice> more = read_slices(c);
-        EXPECT_EQ(c.slabs, std::count_if(more.begin(), more.end(),
-                                         [](const PlacedSlice& s) { return s.flags == 0; }));
+        EXPECT_EQ(c.segments, std::count_if(more.begin(), more.end(),
+                                            [](const PlacedSlice& s) { return s.flags == 0; }));
         out.insert(out.end(), more.begin(), more.end());
     }
     return out;

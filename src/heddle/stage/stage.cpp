@@ -72,20 +72,22 @@ Stage::Stage(const Scene& scene, const StageOptions& options, Progress& progress
         choose_levels();
     }
     const Bounds box = bounds();
-    scene_.lights = LightSet(load_lights(scene, view_.up), 0.5 * length(box.size()));
+    scene_.lights = LightSet(load_lights(scene, parameters_.up), 0.5 * length(box.size()));
 }
 
 void Stage::read_level(OpenVolume& volume) {
-    volume.pyramid[static_cast<std::size_t>(volume.next)] =
-        std::make_shared<TraversalLevel>(*read_vdb(volume.path, volume.next));
-    --volume.next;
+    std::unique_ptr<MemoryLevel> level = read_vdb(volume.path, volume.next);
+    auto made = std::make_shared<TraversalLevel>(*level, volume.parents.get());
+    volume.parents.reset();
+    if (made->has_cells() && volume.next > 0) volume.parents = std::move(level);
+    volume.levels[static_cast<std::size_t>(volume.next--)] = std::move(made);
 }
 
 void Stage::open_volume(const SceneObject& object, const Scene& scene) {
     const std::vector<VoxelLevelInfo> infos = read_levels_of(object, scene);
     OpenVolume volume;
     volume.path = object.volume;
-    volume.pyramid.resize(infos.size());
+    volume.levels.resize(infos.size());
     for (const VoxelLevelInfo& info : infos) volume.voxels.push_back(info.voxel_count);
     const Vec3d h = infos.front().lattice.voxel_size;
     volume.voxel_size = std::max({h.x, h.y, h.z});
@@ -161,7 +163,7 @@ void Stage::rebuild_volumes() {
     scene_.volumes.clear();
     for (const OpenVolume& volume : open_) {
         for (const Affine& instance : volume.instances) {
-            scene_.volumes.emplace_back(volume.pyramid, instance, volume.materials);
+            scene_.volumes.emplace_back(volume.levels, instance, volume.materials);
         }
     }
 }
@@ -178,22 +180,22 @@ Bounds Stage::bounds() const {
 void Stage::place_camera(const Scene& scene) {
     if (scene.camera) {
         const SceneCamera& from = *scene.camera;
-        view_.orthographic = from.kind == SceneCamera::Kind::Orthographic;
-        view_.eye = from.eye;
-        view_.target = from.target;
-        view_.up = from.up;
-        view_.view_angle = from.view_angle_deg * std::numbers::pi / 180.0;
-        view_.view_height = from.view_height;
-        view_.lens_radius = from.lens_radius;
-        view_.focus_distance = from.focus_distance;
+        parameters_.orthographic = from.kind == SceneCamera::Kind::Orthographic;
+        parameters_.eye = from.eye;
+        parameters_.target = from.target;
+        parameters_.up = from.up;
+        parameters_.view_angle = from.view_angle_deg * std::numbers::pi / 180.0;
+        parameters_.view_height = from.view_height;
+        parameters_.lens_radius = from.lens_radius;
+        parameters_.focus_distance = from.focus_distance;
     } else { // three-quarter view from above; flat objects are seen from the front
         const Vec3d size = bounds().size();
         Vec3d from{0.5, 0.35, 1.0};
         if (size.z < 0.5 * std::min(size.x, size.y)) from = {0.25, -0.8, 1.0};
         if (size.y < 0.5 * std::min(size.x, size.z)) from = {0.25, 1.0, 0.8};
-        view_ = frame(bounds(), from, {0, 1, 0}, static_cast<double>(width_) / height_);
+        parameters_ = frame(bounds(), from, {0, 1, 0}, static_cast<double>(width_) / height_);
     }
-    camera_ = std::make_unique<Camera>(view_, width_, height_);
+    camera_ = std::make_unique<Camera>(parameters_, width_, height_);
 }
 
 /// Finds the finest level that rays need: that of the narrowest footprint on the object's box. This
@@ -203,11 +205,12 @@ void Stage::choose_levels() {
     const Ray corner = camera_->ray(0.0f, 0.0f, {0.0f, 0.0f});
     std::size_t at = 0;
     for (OpenVolume& volume : open_) {
-        const int last = static_cast<int>(volume.pyramid.size()) - 1;
+        const int last = static_cast<int>(volume.levels.size()) - 1;
         volume.finest_wanted = last;
         for (const Affine& instance : volume.instances) {
-            const double away = std::max(
-                0.0, distance_to(scene_.volumes[at++].bounds(), view_.eye) - view_.lens_radius);
+            const double away =
+                std::max(0.0, distance_to(scene_.volumes[at++].bounds(), parameters_.eye) -
+                                  parameters_.lens_radius);
             const double width =
                 static_cast<double>(corner.width) + static_cast<double>(corner.spread) * away;
             const double level = std::log2(width / (volume.voxel_size * scale_of(instance))) +
@@ -236,7 +239,7 @@ bool Stage::read_next(std::int64_t most_voxels) {
 std::int64_t Stage::byte_count() const {
     std::int64_t sum = flake_bytes_ + (scene_.surfaces ? scene_.surfaces->byte_count() : 0);
     for (const OpenVolume& volume : open_) {
-        for (const auto& level : volume.pyramid) sum += level ? level->byte_count() : 0;
+        for (const auto& level : volume.levels) sum += level ? level->byte_count() : 0;
     }
     return sum;
 }

@@ -39,7 +39,7 @@ public:
 
     [[nodiscard]] const PathScene& scene() const { return scene_; }
     [[nodiscard]] const Camera& camera() const { return *camera_; }
-    [[nodiscard]] const CameraParameters& view() const { return view_; }
+    [[nodiscard]] const CameraParameters& camera_parameters() const { return parameters_; }
     [[nodiscard]] Bounds bounds() const;
     [[nodiscard]] std::int64_t byte_count() const; ///< of levels and geometry
 
@@ -47,13 +47,14 @@ private:
     /// A .vdb and its instances.
     struct OpenVolume {
         std::string path;
-        TraversalLevels pyramid;
+        TraversalLevels levels;
         std::vector<std::int64_t> voxels; ///< per level
         double voxel_size = 0.0;          ///< longest edge of level 0, object units
         std::vector<Affine> instances;
         std::vector<std::uint32_t> materials;
         int finest_wanted = 0;
-        int next = 0; ///< level to be read next
+        int next = 0;                        ///< level to be read next
+        std::unique_ptr<VoxelLevel> parents; ///< the level before that, for volumes of fibers
     };
     void open_volume(const SceneObject& object, const Scene& scene);
     void add_flakes(const SceneObject& object, const Scene& scene);
@@ -71,7 +72,7 @@ private:
     std::vector<OpenVolume> open_;
     std::vector<std::string> names_;
     Bounds surface_bounds_;
-    CameraParameters view_;
+    CameraParameters parameters_;
     std::unique_ptr<Camera> camera_;
     std::int64_t flake_bytes_ = 0; ///< of all FlakeGrids, which instances share
     std::int32_t width_ = 0, height_ = 0;

@@ -145,9 +145,9 @@ TEST(Stage, FramesTheSameAtEveryForcedLevel) {
     const TempFolder folder;
     Scene scene = slab_scene(folder);
     Progress progress;
-    const Vec3d eye = Stage(scene, {}, progress).view().eye;
+    const Vec3d eye = Stage(scene, {}, progress).camera_parameters().eye;
     for (scene.integrator.level = 0; scene.integrator.level < 5; ++scene.integrator.level) {
-        EXPECT_EQ(Stage(scene, {}, progress).view().eye, eye);
+        EXPECT_EQ(Stage(scene, {}, progress).camera_parameters().eye, eye);
     }
 }
 

@@ -76,9 +76,9 @@ inline SceneCamera camera_at(const Scene& scene, double voxels) {
 
 /// Returns the finest level that was read; -1: none.
 inline int finest_read(const Stage& stage) {
-    const TraversalLevels& pyramid = stage.scene().volumes.at(0).pyramid();
-    for (std::size_t l = 0; l < pyramid.size(); ++l) {
-        if (pyramid[l]) return static_cast<int>(l);
+    const TraversalLevels& levels = stage.scene().volumes.at(0).pyramid();
+    for (std::size_t l = 0; l < levels.size(); ++l) {
+        if (levels[l]) return static_cast<int>(l);
     }
     return -1;
 }

@@ -26,8 +26,8 @@ struct ShaderCamera {
     /// @param light  from the ball to the light, of nonzero length
     ShaderCamera(const Ball& ball, Vec3d light, std::int32_t size, double unit);
 
-    /// @param place  units
-    [[nodiscard]] Vec3f seen(Vec3d place) const { return to_float(axes.of(place - eye)); }
+    /// @param point  units
+    [[nodiscard]] Vec3f seen(Vec3d point) const { return to_float(axes.of(point - eye)); }
     bool operator==(const ShaderCamera&) const = default;
     /// Sets the uniforms of kEyeGlsl.
     void set_uniforms(const opengl::Program& program) const;

@@ -25,7 +25,7 @@ public:
               bool spool,
               const std::string& folder,
               BlockVisitor* visitor)
-        : keeper_(info, blocks.size(), spool, folder),
+        : store_(info, blocks.size(), spool, folder),
           visitor_(visitor),
           keep_sums_(info.fields.masks) {
         if (visitor_ != nullptr) visitor_->begin(info, blocks, spool ? folder : "");
@@ -39,14 +39,14 @@ public:
     /// Stores a block that the visitor has received in another way.
     void keep(std::size_t rank, VoxelBlock& block) {
         if (!keep_sums_) drop_sums(block);
-        keeper_.keep(rank, block);
+        store_.keep(rank, block);
     }
 
     /// Returns the level of all stored blocks. Call once, after the last block.
-    [[nodiscard]] std::unique_ptr<VoxelLevel> finish() { return keeper_.finish(); }
+    [[nodiscard]] std::unique_ptr<VoxelLevel> finish() { return store_.finish(); }
 
 private:
-    BlockStore keeper_;
+    BlockStore store_;
     BlockVisitor* visitor_;
     bool keep_sums_;
 };

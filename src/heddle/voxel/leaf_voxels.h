@@ -30,6 +30,8 @@ struct BlockVoxel {
         return of_voxel(block.correlation);
     }
     [[nodiscard]] std::uint64_t occupancy() const { return of_voxel(block.occupancy); }
+    /// {0, 255} if the block does not have the field.
+    [[nodiscard]] PlaneSlab slab() const { return of_voxel(block.slabs); }
     /// Returns its 1 to K lobes, the heaviest first.
     [[nodiscard]] std::span<const Lobe> lobes() const { return of_lobes(block.lobes); }
     /// These return one element per lobe; empty if the block does not have the field.

@@ -45,6 +45,59 @@ TEST(Occupancy, ACellIsSetIfASubvoxelInItIsOccupied) {
     }
 }
 
+/// Returns how many of four points of a face's cell (p, q) are in covered columns.
+int covered_columns(std::uint64_t columns, int n, int p, int q) {
+    int count = 0;
+    for (int i = 0; i < 4; ++i) { // of four points in the cell
+        const int a = (4 * p + 1 + 2 * (i & 1)) * n / 16;
+        const int b = (4 * q + 1 + 2 * (i >> 1)) * n / 16;
+        count += static_cast<int>(columns >> (b * n + a) & 1);
+    }
+    return count;
+}
+
+/// Returns the position of cell (x, y, z) on the face along an axis.
+std::array<int, 2> on_face(int axis, int x, int y, int z) {
+    return {axis == 0 ? y : x, axis == 2 ? y : z};
+}
+
+TEST(Occupancy, WhatOnlyColumnsSeeIsSetToo) {
+    CounterRandom random{9, 1};
+    for (const int n : {1, 2, 4, 8}) {
+        for (int round = 0; round < 300; ++round) {
+            std::array<std::uint64_t, 8> sub{};
+            std::array<std::uint64_t, 3> columns{};
+            const std::uint64_t bits =
+                n == 8 ? ~std::uint64_t{0} : (std::uint64_t{1} << (n * n)) - 1;
+            for (std::uint64_t& c : columns) {
+                c = random.next() & bits;
+                if (round % 3 == 0) c &= random.next();
+            }
+            const auto bit = static_cast<int>(random.next() % static_cast<unsigned>(n * n * n));
+            sub[static_cast<std::size_t>(bit / 64)] |= std::uint64_t{1} << (bit % 64);
+            const std::uint64_t before = cells_of_subvoxels(sub.data(), n);
+            std::uint64_t expected = before;
+            for (int i = 0; i < 64; ++i) {
+                const int x = i / 16, y = i / 4 % 4, z = i % 4;
+                bool hole = false, seen = true;
+                for (int axis = 0; axis < 3; ++axis) {
+                    const auto [p, q] = on_face(axis, x, y, z);
+                    const std::uint64_t face = columns[static_cast<std::size_t>(axis)];
+                    bool behind = false;
+                    for (int k = 0; k < 64; ++k) {
+                        behind |= on_face(axis, k / 16, k / 4 % 4, k % 4) == std::array{p, q} &&
+                                  (before >> k & 1) != 0;
+                    }
+                    hole |= covered_columns(face, n, p, q) >= 2 && !behind;
+                    seen &= face == 0 || covered_columns(face, n, p, q) > 0;
+                }
+                if (hole && seen) expected |= cell_bit(x, y, z);
+            }
+            ASSERT_EQ(cells_of_voxel(sub.data(), columns.data(), n), expected) << n << " subvoxels";
+        }
+    }
+}
+
 TEST(Occupancy, AParentsCellIsSetIfAChildsCellInItIs) {
     for (int octant = 0; octant < 8; ++octant) {
         EXPECT_EQ(cells_in_parent(0, octant), 0u);

@@ -3,6 +3,7 @@
 #include <heddle/base/vec.h>
 #include <heddle/geom/geometry.h>
 #include <heddle/sggx/packed.h>
+#include <heddle/voxel/plane_slab.h>
 
 #include <array>
 #include <bit>
@@ -83,13 +84,14 @@ struct MapSums {
 static_assert(sizeof(LobeMoment) == 56 && sizeof(MapSums) == 96, "written as they lie");
 
 /// Which of the optional data a grid holds. The first three are absent when no material's maps vary
-/// them, the others unless they were asked for.
+/// them, slabs where no material is a surface, the others unless they were asked for.
 struct VoxelFields {
     bool albedo = false;   ///< LobeMaps::albedo
     bool surface = false;  ///< LobeMaps::roughness, metalness, anisotropy
     bool tangents = false; ///< a second SGGX per lobe: tangents of anisotropic surfaces
     bool masks = false; ///< of level 0: columns and sums, so that levels can be built again exactly
     bool correlation = false;    ///< what neighbouring voxels share
+    bool slabs = false;          ///< PlaneSlab of the first lobe
     std::int32_t footprints = 0; ///< cells per axis of a voxel's face: 4 or 8; 0: none
     bool occupancy = false;      ///< which of a voxel's 4 x 4 x 4 cells contain geometry
 
@@ -141,13 +143,14 @@ struct VoxelBlock {
                                                           ///< fields.correlation
     std::vector<std::uint64_t> occupancy; ///< per voxel: cells that contain geometry (occupancy.h);
                                           ///< with fields.occupancy
+    std::vector<PlaneSlab> slabs;         ///< per voxel; with fields.slabs
 
     /// Returns references to all vectors but `leaves`.
     template <typename Self>
     static auto arrays(Self& block) {
         return std::tie(block.coverage, block.lobe_count, block.lobes, block.maps, block.tangents,
                         block.merge_order, block.columns, block.moments, block.map_sums,
-                        block.footprints, block.correlation, block.occupancy);
+                        block.footprints, block.correlation, block.occupancy, block.slabs);
     }
     /// Calls f with each of the vectors but `leaves`.
     template <typename Self, typename F>
@@ -186,7 +189,8 @@ struct LevelSize {
                                                       const VoxelFields& fields) {
     const std::size_t per_voxel = sizeof(Coverage) + 1 + (fields.masks ? 24 : 0) +
                                   (fields.footprints != 0 ? 24 : 0) + (fields.correlation ? 3 : 0) +
-                                  (fields.occupancy ? sizeof(std::uint64_t) : 0);
+                                  (fields.occupancy ? sizeof(std::uint64_t) : 0) +
+                                  (fields.slabs ? sizeof(PlaneSlab) : 0);
     const std::size_t sums = sizeof(LobeMoment) + (fields.map_sums() ? sizeof(MapSums) : 0);
     const std::size_t per_lobe = sizeof(Lobe) + (fields.maps() ? sizeof(LobeMaps) : 0) +
                                  (fields.tangents ? sizeof(PackedSggx) : 0) +

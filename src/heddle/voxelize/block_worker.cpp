@@ -5,7 +5,7 @@
 namespace heddle {
 namespace {
 
-/// Returns the optional fields that the voxels have, which depend on the maps of the materials.
+/// Returns the optional fields that the voxels have, which depend on the materials and their maps.
 VoxelFields fields_of(const Geometry& geometry) {
     VoxelFields fields;
     for (const CurveSet& set : geometry.curves) {
@@ -18,6 +18,7 @@ VoxelFields fields_of(const Geometry& geometry) {
         fields.albedo = fields.albedo || m.albedo_map >= 0;
         fields.surface = fields.surface || m.metal_rough_map >= 0 || m.anisotropy_map >= 0;
         fields.tangents = fields.tangents || m.anisotropy > 0.0f;
+        fields.slabs = fields.slabs || m.kind == MaterialKind::Surface;
     }
     return fields;
 }
@@ -32,7 +33,8 @@ VoxelizeContext::VoxelizeContext(const PreparedGeometry& prepared_in,
       fit{.subvoxels = prepared_in.lattice.subvoxels,
           .max_lobes = options_in.max_lobes,
           .project_subvoxels = options_in.coverage == CoverageMode::Mask,
-          .fields = fields_of(prepared_in.geometry)} {
+          .fields = fields_of(prepared_in.geometry),
+          .voxel_size = prepared_in.lattice.voxel_size} {
     fit.fields.masks = options_in.keep_sums || with_sums;
     fit.fields.footprints = options_in.footprints;
     fit.fields.occupancy = options_in.occupancy;
@@ -68,7 +70,8 @@ BlockWorker::BlockWorker(const VoxelizeContext& context)
     : context_(context),
       sums_(context.fit.fields.map_sums()),
       fibers_(context.prepared.fibers, context.prepared.units, context.options.gather()),
-      triangles_(context.prepared.surfaces, context.prepared.units, context.options.fit) {}
+      triangles_(context.prepared.surfaces, context.prepared.units, context.options.fit),
+      slabs_(context.prepared.surfaces, context.fit) {}
 
 BlockCounts BlockWorker::run(std::uint64_t block,
                              std::span<const Primitive> primitives,
@@ -82,9 +85,11 @@ BlockCounts BlockWorker::run(std::uint64_t block,
     const auto split = static_cast<std::size_t>(
         std::lower_bound(primitives.begin(), primitives.end(), kTriangleBit) - primitives.begin());
     fibers_.gather(primitives.first(split), sums_, progress);
-    const TriangleWork work = triangles_.gather(primitives.subspan(split), sums_, progress);
+    const std::span<const Primitive> triangles = primitives.subspan(split);
+    const TriangleWork work = triangles_.gather(triangles, sums_, progress);
     BlockCounts counts = fit_block(sums_, context_.fit, out);
-    counts.triangles = static_cast<std::int64_t>(primitives.size() - split);
+    if (context_.fit.fields.slabs) slabs_.fit(triangles, lo, hi, progress, out);
+    counts.triangles = static_cast<std::int64_t>(triangles.size());
     counts.triangle_hits = work.hits;
     counts.surface_samples = work.samples;
     return counts;
@@ -93,7 +98,8 @@ BlockCounts BlockWorker::run(std::uint64_t block,
 std::int64_t BlockWorker::byte_count(const FitOptions& fit) {
     const std::size_t voxel =
         sizeof(std::uint16_t) + sizeof(VoxelSums) + (fit.fields.map_sums() ? sizeof(MapSums) : 0);
-    return static_cast<std::int64_t>(voxel * BlockSums::kVoxels + (std::size_t{1} << 18));
+    return static_cast<std::int64_t>(voxel * BlockSums::kVoxels + (std::size_t{1} << 18)) +
+           (fit.fields.slabs ? SlabFitter::byte_count() : 0);
 }
 
 } // namespace heddle

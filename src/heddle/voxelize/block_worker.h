@@ -4,6 +4,7 @@
 #include <heddle/voxelize/block/fit_block.h>
 #include <heddle/voxelize/fiber/gather_fibers.h>
 #include <heddle/voxelize/prepare.h>
+#include <heddle/voxelize/triangle/fit_slabs.h>
 #include <heddle/voxelize/triangle/gather_triangles.h>
 #include <heddle/voxelize/voxelize_options.h>
 
@@ -52,6 +53,7 @@ private:
     BlockSums sums_;
     FiberGatherer fibers_;
     TriangleGatherer triangles_;
+    SlabFitter slabs_;
 };
 
 /// A pool of workers, one per thread.

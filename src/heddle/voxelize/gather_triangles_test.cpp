@@ -24,12 +24,14 @@ struct Found {
     std::vector<Lobe> lobes;
     std::vector<LobeMaps> maps;
     std::vector<PackedSggx> tangents;
+    PlaneSlab slab{};
 
     friend bool operator==(const Found& a, const Found& b) {
         const auto same = [](const PackedSggx& p, const PackedSggx& q) {
             return std::equal(p.sigma, p.sigma + 3, q.sigma) && std::equal(p.r, p.r + 3, q.r);
         };
-        return a.coverage == b.coverage && a.lobes == b.lobes && a.maps == b.maps &&
+        return a.coverage == b.coverage && a.slab == b.slab && a.lobes == b.lobes &&
+               a.maps == b.maps &&
                std::equal(a.tangents.begin(), a.tangents.end(), b.tangents.begin(),
                           b.tangents.end(), same);
     }
@@ -48,7 +50,7 @@ void collect(const VoxelBlock& block, FoundVoxels& out) {
         const std::size_t n = v.lobe_count();
         out[{v.at.x, v.at.y, v.at.z}] = {v.coverage(), part(block.lobes, v.lobe, n),
                                          part(block.maps, v.lobe, n),
-                                         part(block.tangents, v.lobe, n)};
+                                         part(block.tangents, v.lobe, n), v.slab()};
     });
 }
 

@@ -76,6 +76,7 @@ struct Content {
     std::array<std::uint64_t, 3> footprints{};
     std::array<std::uint8_t, 3> correlation{};
     std::uint64_t occupancy = 0;
+    PlaneSlab slab{};
     friend bool operator==(const Content&, const Content&) = default;
 };
 
@@ -88,7 +89,8 @@ inline std::map<Key, Content> content_of(const VoxelLevel& source) {
                                              v.merge_order(),
                                              v.footprints(),
                                              v.correlation(),
-                                             v.occupancy()};
+                                             v.occupancy(),
+                                             v.slab()};
     });
     EXPECT_EQ(static_cast<std::int64_t>(content.size()), source.info().voxel_count);
     return content;
@@ -115,6 +117,7 @@ inline void expect_same_block(const VoxelBlock& a, const VoxelBlock& b) {
     ASSERT_TRUE(a.footprints == b.footprints);
     ASSERT_TRUE(a.correlation == b.correlation);
     ASSERT_TRUE(a.occupancy == b.occupancy);
+    ASSERT_TRUE(a.slabs == b.slabs);
 }
 
 } // namespace heddle::test

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-/// "cotton, silk, wool".
+/// Returns a list such as "cotton, silk, wool".
 std::string preset_names() {
     std::string names;
     for (const std::string& name : job::yarn_preset_names()) {

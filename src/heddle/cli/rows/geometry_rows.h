@@ -7,15 +7,16 @@
 
 namespace heddle::cli {
 
-/// The rows that say how a file is read: --yarn-radius, --repeat.
+/// Returns the rows for reading a file: --yarn-radius, --repeat.
 [[nodiscard]] std::vector<Option> load_rows();
 
-/// The rows that say what becomes of what was read: --yarn, --fibers, --fiber-radius,
-/// --height-map...
+/// Returns the rows that modify geometry after it is read: --yarn, --fibers, --fiber-radius,
+/// --height-map and so on.
 [[nodiscard]] std::vector<Option> model_rows();
 
-/// What those rows say.
-/// @param arguments  with the rows of load_rows() and model_rows(), or without those of height maps
+/// Returns the options that those rows give.
+/// @param arguments  of a command with load_rows() and model_rows(); the rows for height maps may
+///                   be missing
 [[nodiscard]] job::GeometryOptions geometry_options_from(const Arguments& arguments);
 
 } // namespace heddle::cli

@@ -8,14 +8,14 @@
 
 namespace heddle::cli {
 
-/// The rows that say which levels of detail are built: --levels, --lod.
+/// Returns the rows for building levels of detail: --levels, --lod.
 [[nodiscard]] std::vector<Option> level_rows();
 
-/// What --lod says.
+/// Returns the value of --lod.
 [[nodiscard]] LodMethod lod_method_from(const Arguments& arguments);
 
-/// What --levels says; none: all.
-/// @throws UsageError  a number of levels that cannot be
+/// Returns the value of --levels; none: all.
+/// @throws UsageError  the number of levels is out of range
 [[nodiscard]] std::optional<int> level_count_from(const Arguments& arguments);
 
 } // namespace heddle::cli

@@ -63,8 +63,8 @@ void report_notes(Report& report, const std::vector<std::string>& notes) {
     for (const std::string& note : notes) report.note(note);
 }
 
-void report_stages(Report& report, const job::StageTimes& stages) {
-    for (const auto& [stage, seconds] : stages) report.seconds(stage, seconds);
+void report_phases(Report& report, const job::PhaseTimes& phases) {
+    for (const auto& [phase, seconds] : phases) report.seconds(phase, seconds);
 }
 
 void report_cost(Report& report, double seconds, std::int64_t peak_bytes) {

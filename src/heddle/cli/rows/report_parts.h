@@ -2,7 +2,7 @@
 
 #include <heddle/cli/terminal/report.h>
 #include <heddle/job/levels.h>
-#include <heddle/job/stage_clock.h>
+#include <heddle/job/phase_clock.h>
 #include <heddle/job/voxelize/voxelize_vol.h>
 
 #include <string>
@@ -10,24 +10,24 @@
 
 namespace heddle::cli {
 
-/// "1, 2, 3".
+/// Returns a text such as "1, 2, 3".
 [[nodiscard]] std::string show(Vec3d v);
 
-/// Rows on the voxels and lobes of level 0, and of the levels above it.
+/// Adds rows for the voxels and lobes of level 0 and of the levels above it.
 void report_levels(Report& report, const job::LevelCounts& counts);
 
-/// Rows on how much work a plan is: primitives, steps, voxels, predicted bytes and time.
+/// Adds rows for the work that a plan predicts: primitives, steps, voxels, bytes and time.
 void report_work(Report& report, const VoxelizePlan& plan, std::int64_t predicted_file_bytes);
 
-/// Rows on what a .vol holds.
+/// Adds rows for the contents of a .vol.
 void report_vol(Report& report, const VolLayout& layout);
 
 void report_notes(Report& report, const std::vector<std::string>& notes);
 
-/// A row a stage.
-void report_stages(Report& report, const job::StageTimes& stages);
+/// Adds a row for each phase.
+void report_phases(Report& report, const job::PhaseTimes& phases);
 
-/// Rows on the whole time and the memory.
+/// Adds rows for the total time and the peak memory.
 void report_cost(Report& report, double seconds, std::int64_t peak_bytes);
 
 } // namespace heddle::cli

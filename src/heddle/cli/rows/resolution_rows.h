@@ -8,10 +8,10 @@
 
 namespace heddle::cli {
 
-/// The rows that choose the lattice: --voxel-size, --voxels.
+/// Returns the rows that choose the lattice: --voxel-size, --voxels.
 [[nodiscard]] std::vector<Option> resolution_rows();
 
-/// What --voxel-size says, where it is given.
+/// Returns the value of --voxel-size; none: it is not given.
 [[nodiscard]] std::optional<Vec3d> voxel_size_from(const Arguments& arguments);
 
 } // namespace heddle::cli

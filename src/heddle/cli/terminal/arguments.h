@@ -8,10 +8,11 @@
 
 namespace heddle::cli {
 
-/// What the user gave, checked against the table; what was not given is the row's preset.
+/// The values that the user gave, checked against the table. An option that was not given has the
+/// preset of its row.
 class Arguments {
 public:
-    /// @param values  at least one; more than one where the option repeats
+    /// @param values  at least one; several only if the option may be repeated
     void set(const std::string& key, const std::vector<std::string>& values) {
         given_[key] = values;
     }
@@ -19,20 +20,22 @@ public:
 
     [[nodiscard]] bool given(const std::string& key) const { return given_.contains(key); }
     [[nodiscard]] const std::string& text(const std::string& key) const;
-    /// All values of an option that repeats, in their order; none if it is not given.
+    /// Returns all values of an option that may be repeated, in their order; none if it is not
+    /// given.
     [[nodiscard]] std::vector<std::string> texts(const std::string& key) const;
     [[nodiscard]] std::int64_t integer(const std::string& key) const;
     [[nodiscard]] double number(const std::string& key) const;
     [[nodiscard]] std::vector<double> numbers(const std::string& key, char separator = ',') const;
     [[nodiscard]] std::int64_t bytes(const std::string& key) const;
 
-    /// The same where it is given, else nothing; so is what the command has no row for.
+    /// Return the value if the option is given, else nothing. An option that the command does not
+    /// have is never given.
     [[nodiscard]] std::optional<std::string> find_text(const std::string& key) const;
     [[nodiscard]] std::optional<std::int64_t> find_integer(const std::string& key) const;
     [[nodiscard]] std::optional<double> find_number(const std::string& key) const;
     [[nodiscard]] std::optional<std::int64_t> find_bytes(const std::string& key) const;
 
-    std::string command_line; ///< as the user typed it, quoted where a shell needs it
+    std::string command_line; ///< as the user typed it, with the quotes that a shell needs
 
 private:
     std::map<std::string, std::vector<std::string>> given_;

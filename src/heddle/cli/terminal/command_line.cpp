@@ -10,8 +10,8 @@
 namespace heddle::cli {
 namespace {
 
-/// The long names, or what stands in for them: what an error calls an option, and what is
-/// suggested.
+/// Returns the long names of options, or the names of arguments without dashes. Errors use them
+/// and suggest the nearest.
 std::string spoken_name(const Option& option) {
     return option.positional() ? option.names : "--" + option.key();
 }
@@ -44,7 +44,7 @@ void check_values(const Option& option, const std::vector<std::string>& values) 
     }
 }
 
-/// The values given to each option, unchecked; a flag's is its name.
+/// Returns the unchecked values of each option. The value of a flag is its name.
 std::vector<std::vector<std::string>> sort_words(const Command& command,
                                                  const std::vector<Option>& options,
                                                  const std::vector<std::string>& words) {
@@ -64,7 +64,7 @@ std::vector<std::vector<std::string>> sort_words(const Command& command,
         parsed->expected(1)->allow_extra_args(false)->type_name(options[i].metavar);
     }
     try {
-        // the library takes the words last one first
+        // the library expects the last word first
         app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
     } catch (const CLI::ParseError& e) {
         throw UsageError(e.what());

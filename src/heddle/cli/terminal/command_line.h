@@ -7,21 +7,21 @@
 
 namespace heddle::cli {
 
-/// Reads the words behind a subcommand's name.
+/// Reads the words that follow the name of a subcommand.
 /// @param command_line  kept in the result
-/// @throws UsageError   an unknown option (names the nearest), a value that the table does not
-///                      allow, a missing or a second value, something required that is not there
+/// @throws UsageError   an option is unknown (the text names the nearest one), a value is missing,
+///                      given twice or not allowed by the table, or a required option is missing
 [[nodiscard]] Arguments parse_arguments(const Command& command,
                                         const std::vector<std::string>& words,
                                         const std::string& command_line);
 
-/// True when the words ask for --help.
+/// Returns true if the words ask for --help.
 [[nodiscard]] bool wants_help(const std::vector<std::string>& words);
 
-/// The options that every subcommand has.
+/// Returns the options that every subcommand has.
 [[nodiscard]] const std::vector<Option>& common_rows();
 
-/// A command's own options, then these.
+/// Returns the options of a command, followed by those that every subcommand has.
 [[nodiscard]] std::vector<Option> with_common(const Command& command);
 
 } // namespace heddle::cli

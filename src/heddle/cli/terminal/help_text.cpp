@@ -10,13 +10,13 @@
 namespace heddle::cli {
 namespace {
 
-/// The value when not given: as it is, or in words.
+/// Returns the value of an option that is not given, or its description.
 std::string shown_preset(const Option& option) {
     const std::string& preset = option.preset;
     return preset.starts_with('(') ? preset.substr(1, preset.size() - 2) : preset;
 }
 
-/// "[scene units; > 0; default: 512]" in the pieces between which a line may end.
+/// Returns "[scene units; > 0; default: 512]" in pieces; a line may end after each.
 std::vector<std::string> bracket(const Option& option) {
     std::vector<std::string> parts;
     const auto add = [&parts](const std::string& part) {
@@ -56,7 +56,7 @@ std::string markdown_row(const Option& option) {
                escape_bars(option.text), " |\n");
 }
 
-/// A section with a table; the groups are bold rows of it.
+/// Returns a section with a table, in which the names of groups are bold rows.
 std::string markdown_table(const std::string& title,
                            const std::string& summary,
                            const std::vector<Option>& options) {
@@ -74,7 +74,7 @@ std::string markdown_table(const std::string& title,
 
 constexpr std::size_t kHelpWidth = 100; // columns
 
-/// `pieces` in lines of at most kHelpWidth, the first of which begins at column `indent`.
+/// Breaks pieces into lines of at most kHelpWidth columns. The first begins at column `indent`.
 std::string wrap(const std::vector<std::string>& pieces, std::size_t indent) {
     std::string out;
     std::size_t column = indent;
@@ -93,7 +93,7 @@ std::string wrap(const std::vector<std::string>& pieces, std::size_t indent) {
     return out;
 }
 
-/// What --help says of an option beside its name.
+/// Returns the text that --help has beside the name of an option.
 std::string right_column(const Option& option, std::size_t indent) {
     std::vector<std::string> pieces = split(option.text, ' ');
     for (std::string& piece : bracket(option)) pieces.push_back(std::move(piece));

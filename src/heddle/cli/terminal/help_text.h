@@ -7,10 +7,10 @@
 
 namespace heddle::cli {
 
-/// The text of `heddle COMMAND --help`: rows under the headings of their groups.
+/// Returns the text of `heddle COMMAND --help`: rows under the headings of their groups.
 [[nodiscard]] std::string help_text(const Command& command);
 
-/// The rows of all tables as Markdown, for docs/options.md.
+/// Returns the rows of all tables as Markdown, for docs/options.md.
 [[nodiscard]] std::string markdown_tables(const std::vector<Command>& commands);
 
 } // namespace heddle::cli

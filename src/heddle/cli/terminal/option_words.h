@@ -5,8 +5,8 @@
 
 namespace heddle::cli {
 
-/// Text of a library as the command line says it: `voxel_size` in backquotes becomes --voxel-size
-/// where `keys` has "voxel-size"; all else stays.
+/// Returns a text of a library in the words of the command line: `voxel_size` in backquotes becomes
+/// --voxel-size if `keys` has "voxel-size". Everything else stays as it is.
 [[nodiscard]] std::string in_option_words(const std::string& text,
                                           const std::vector<std::string>& keys);
 

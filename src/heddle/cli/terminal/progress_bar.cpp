@@ -25,9 +25,9 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 } // namespace
 
-void ProgressBar::begin(std::string_view stage, std::string_view unit, std::int64_t total) {
+void ProgressBar::begin(std::string_view phase, std::string_view unit, std::int64_t total) {
     finish();
-    stage_ = stage;
+    phase_ = phase;
     unit_ = unit;
     total_ = total;
     done_ = 0;
@@ -66,18 +66,18 @@ void ProgressBar::draw(double seconds) const {
     const double rate = done / seconds;
     const double left = part > 0.0 ? seconds * (1.0 - part) / part : 0.0;
     std::fprintf(stderr, "\r%s%-10s [%s] %3.0f %%  %s %s/s  %s left\x1b[K", part_.c_str(),
-                 stage_.c_str(), bar.data(), part * 100.0, format_count(rate).c_str(),
+                 phase_.c_str(), bar.data(), part * 100.0, format_count(rate).c_str(),
                  unit_.c_str(), part > 0.0 ? format_seconds(left).c_str() : "?");
     std::fflush(stderr);
 }
 
 void ProgressBar::wipe() const {
-    if (!stage_.empty() && visible_ && next_draw_ms_ > kRedrawMs) std::fputs("\r\x1b[K", stderr);
+    if (!phase_.empty() && visible_ && next_draw_ms_ > kRedrawMs) std::fputs("\r\x1b[K", stderr);
 }
 
 void ProgressBar::finish() {
     wipe();
-    stage_.clear();
+    phase_.clear();
 }
 
 void cancel_on_signals(Progress& progress) {

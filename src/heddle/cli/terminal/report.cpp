@@ -94,7 +94,7 @@ Report Report::part() const {
 
 void Report::print() const {
     if (json) {
-        // file names need not be UTF-8; what is not shall not lose the result
+        // a file name that is not UTF-8 must not make the whole result fail
         print_out(values_.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
         return;
     }

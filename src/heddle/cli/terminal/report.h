@@ -10,40 +10,41 @@
 
 namespace heddle::cli {
 
-/// What a command found out, row by row: printed as an aligned table, or as one JSON object.
+/// The results of a command, row by row. They are printed as an aligned table or as a JSON object.
 ///
-/// Keys in JSON are the labels with '_' for ' ' and the unit: "peak memory" is "peak_memory_bytes".
+/// A key in JSON is the label with '_' for ' ', followed by the unit: the key of "peak memory" is
+/// "peak_memory_bytes".
 class Report {
 public:
     void text(const std::string& label, const std::string& value);
-    /// @param unit  printed behind the number; "" for none
+    /// @param unit  is printed after the number; "" for none
     void count(const std::string& label, std::int64_t value, const std::string& unit = {});
     void number(const std::string& label, double value, const std::string& unit = {});
     void bytes(const std::string& label, std::int64_t value);
     void seconds(const std::string& label, double value);
-    /// Any JSON value, printed as `shown`.
+    /// Adds any JSON value, which the table shows as `shown`.
     void add(const std::string& key,
              const std::string& label,
              nlohmann::ordered_json value,
              const std::string& shown);
-    /// Rows under headings, the first cell of each as label; `value` says the same in JSON.
+    /// Adds rows under headings; the first entry of each is its label. `value` is the same in JSON.
     void table(const std::string& key,
                nlohmann::ordered_json value,
                const std::vector<std::string>& headings,
                const std::vector<std::vector<std::string>>& rows);
-    /// Any JSON value, in JSON alone.
+    /// Adds any JSON value that the table does not show.
     void data(const std::string& key, nlohmann::ordered_json value);
-    /// Text that is printed as it is in place of the table; JSON does not hold it.
+    /// Sets a text that is printed instead of the table. It is not in JSON.
     void page(const std::string& text) { page_ = text; }
-    /// One sentence that the user should see: in the JSON's "notes", and as say().
+    /// Adds a sentence to the "notes" of the JSON, and prints it as say() does.
     void note(const std::string& sentence);
-    /// On stderr at once, but once.
+    /// Prints a sentence on stderr at once, unless it was printed before.
     void say(const std::string& sentence);
 
-    /// An empty report of a part of the work: what one of them said on stderr, the others do not
-    /// repeat.
+    /// Returns an empty report for a part of the work. A sentence that one part has printed on
+    /// stderr is not repeated by another.
     [[nodiscard]] Report part() const;
-    /// All that JSON holds.
+    /// Returns everything that is in JSON.
     [[nodiscard]] const nlohmann::ordered_json& values() const { return values_; }
 
     /// @throws Error  Internal: stdout cannot be written
@@ -51,7 +52,7 @@ public:
 
     bool json = false;
     bool quiet = false;                   ///< no notes, and no table
-    std::vector<std::string> option_keys; ///< that notes may name: see in_option_words()
+    std::vector<std::string> option_keys; ///< for in_option_words(), which notes pass through
 
 private:
     nlohmann::ordered_json values_ = nlohmann::ordered_json::object();

@@ -15,7 +15,7 @@ enum class ValueKind : std::uint8_t {
     Bytes    ///< 4G, 1500M
 };
 
-/// What an option takes: parsed, checked and printed from this alone.
+/// The values that an option allows. Parsing, checking and help texts use nothing else.
 struct ValueRule {
     ValueKind kind = ValueKind::Text;
     std::vector<std::string> words{};
@@ -24,9 +24,10 @@ struct ValueRule {
     int least = 1, most = 1;
     char separator = ',';
 
-    /// "1 to 8", "> 0", "columns or mask"; empty where anything goes.
+    /// Returns the range in words, such as "1 to 8" or "columns or mask"; empty: anything is
+    /// allowed.
     [[nodiscard]] std::string range() const;
-    /// What is wrong with `text` as a value, as "'x' is not ..."; empty if nothing is.
+    /// Returns what is wrong with a value, such as "'x' is not ..."; empty: nothing is.
     [[nodiscard]] std::string problem(const std::string& text) const;
 };
 

@@ -11,7 +11,8 @@ namespace {
 
 constexpr std::int64_t kMaxFrames = 1'000'000;
 
-/// Takes a number off the front of `text`; -1 where there is none, or more than nine digits.
+/// Removes a number from the front of a text and returns it; -1: there is none, or it has more than
+/// nine digits.
 std::int64_t take_number(std::string_view& text) {
     std::int64_t number = -1;
     const auto digit = [](char c) { return c >= '0' && c <= '9'; };

@@ -46,7 +46,7 @@ void report_plan(Report& report, const job::VoxelizeReport& done) {
     report.number("chord error", plan.chord_error, "subvoxels");
 }
 
-/// False of a plan alone.
+/// Returns false if there is only a plan.
 bool is_written(const job::VoxelizeReport& done) {
     return done.file_bytes > 0;
 }
@@ -68,7 +68,7 @@ void report_voxelize(Report& report, const job::VoxelizeReport& done, const std:
                        " summed over all threads, while voxelizing"));
     }
     report.bytes("file size", done.file_bytes);
-    report_stages(report, done.stages);
+    report_phases(report, done.phases);
     report_cost(report, done.seconds, done.peak_bytes);
 }
 

@@ -8,11 +8,11 @@
 
 namespace heddle::cli {
 
-/// Rows on a plan and, where a .vdb was written, on what it came to.
+/// Adds rows for a plan and, if a .vdb was written, for the result.
 void report_voxelize(Report& report, const job::VoxelizeReport& done, const std::string& output);
 
-/// A row for each frame, and sums over them.
-/// @param done  one a frame
+/// Adds a row for each frame, and sums over all frames.
+/// @param done  one report per frame
 void report_frames(Report& report,
                    const std::vector<job::AnimationFrame>& frames,
                    const std::vector<job::VoxelizeReport>& done);

@@ -1,31 +1,28 @@
 #include <heddle/cli/voxelize/vol.h>
 
 #include <heddle/base/error.h>
-#include <heddle/cli/rows/geometry_rows.h>
 #include <heddle/cli/rows/level_rows.h>
 #include <heddle/cli/rows/report_parts.h>
-#include <heddle/cli/rows/resolution_rows.h>
 #include <heddle/cli/terminal/progress_bar.h>
-#include <heddle/cli/voxelize/voxelize_options.h>
+#include <heddle/cli/voxelize/voxelize.h>
 #include <heddle/job/voxelize/voxelize_vol.h>
 
+#include <set>
 #include <string>
 
 namespace heddle::cli {
 namespace {
 
-/// Options of `voxelize` that choose or measure voxels: a volume has them.
+/// Refuses every option of `voxelize` that a volume has no use for.
 void reject_other_rows(const Arguments& arguments) {
-    std::vector<std::string> useless{"bounds",  "subvoxels", "coverage",
-                                     "samples", "fit",       "fill-memory"};
-    for (const std::vector<Option>& rows :
-         {resolution_rows(), load_rows(), model_rows(), raster_rows()}) {
-        for (const Option& row : rows) useless.push_back(row.key());
+    std::set<std::string> used{"FILE", "output", "dry-run", "lobes", "occupancy", "memory"};
+    for (const std::vector<Option>& rows : {level_rows(), vol_rows()}) {
+        for (const Option& row : rows) used.insert(row.key());
     }
-    for (const std::string& key : useless) {
-        if (!arguments.given(key)) continue;
+    for (const Option& row : voxelize_command().options) {
+        if (used.contains(row.key()) || !arguments.given(row.key())) continue;
         throw UsageError(
-            str("--", key, " cannot be used with a .vol, whose samples become the voxels"));
+            str("--", row.key(), " cannot be used with a .vol, whose samples become the voxels"));
     }
 }
 
@@ -83,7 +80,7 @@ void voxelize_vol(const Arguments& arguments, Report& report, ProgressBar& bar) 
     report.text("output", output);
     report_levels(report, done.counts);
     report.bytes("file size", done.file_bytes);
-    report_stages(report, done.stages);
+    report_phases(report, done.phases);
     report_cost(report, done.seconds, done.peak_bytes);
 }
 

@@ -6,14 +6,15 @@
 
 namespace heddle::cli {
 
-/// The rows that say how a .vol is read: --orientation, --density-scale, --albedo.
+/// Returns the rows for reading a .vol: --orientation, --density-scale, --albedo.
 [[nodiscard]] std::vector<Option> vol_rows();
 
-/// @throws UsageError  one of vol_rows() is given for what is no .vol
+/// Checks that a file that is not a .vol is given without vol_rows().
+/// @throws UsageError  one of them is given
 void reject_vol_rows(const Arguments& arguments);
 
-/// `voxelize` of a .vol.
-/// @throws UsageError  an option that a volume has no use for
+/// Runs `voxelize` for a .vol.
+/// @throws UsageError  an option is given that a volume has no use for
 /// @throws Error       as job::voxelize_vol_to_file
 void voxelize_vol(const Arguments& arguments, Report& report, ProgressBar& bar);
 

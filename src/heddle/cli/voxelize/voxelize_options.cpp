@@ -15,7 +15,7 @@ const std::vector<std::string>& composition_names() {
     return names; // in the order of raster::Composition
 }
 
-/// Which of the names an option was given.
+/// Returns the index of the value of an option in a list of names.
 std::ptrdiff_t
 choice(const Arguments& arguments, const char* option, const std::vector<std::string>& names) {
     return std::find(names.begin(), names.end(), arguments.text(option)) - names.begin();

@@ -7,16 +7,16 @@
 
 namespace heddle::cli {
 
-/// The rows that choose a backend and say how slices are drawn: --backend, --composition, ...
+/// Returns the rows for the backend that draws slices: --backend, --composition and so on.
 [[nodiscard]] std::vector<Option> raster_rows();
 
-/// The rows that say where voxels are made: --device, --device-memory.
+/// Returns the rows for the processor that voxelizes: --device, --device-memory.
 [[nodiscard]] std::vector<Option> device_rows();
 
-/// Names in the order of raster::RasterPath.
+/// Returns the names of paths in the order of raster::RasterPath.
 [[nodiscard]] const std::vector<std::string>& path_names();
 
-/// What the rows of `voxelize` say of curves and meshes.
+/// Returns the options of `voxelize` for curves and meshes.
 [[nodiscard]] job::VoxelizeJobOptions voxelize_options_from(const Arguments& arguments);
 
 } // namespace heddle::cli

@@ -16,9 +16,10 @@ struct LevelCounts {
 std::int64_t array_bytes(int level, const LevelCounts& count, const BatchOptions& options) {
     const bool maps = options.with_maps();
     const std::int64_t cells = options.level0.fields.occupancy ? 8 : 0;
+    const std::int64_t slab = options.level0.fields.slabs ? sizeof(OpenSlab) : 0;
     const std::int64_t words = std::int64_t{1} << (2 * level);
     const std::size_t per_lobe = sizeof(DirectionSums) + (maps ? sizeof(MapSums) : 0);
-    return count.voxels * (8 + 3 * 4 + 24 * words + cells) + 4 +
+    return count.voxels * (8 + 3 * 4 + 24 * words + cells + slab) + 4 +
            count.lobes * static_cast<std::int64_t>(per_lobe);
 }
 
@@ -57,6 +58,7 @@ std::unique_ptr<UpperVoxel> TopLevel::take(std::size_t slot) const {
     out->voxel.order = order[v];
     if (occupancy.size() > 0) out->voxel.cells = occupancy[v];
     out->voxel.lobe_count = static_cast<std::uint8_t>(end - begin);
+    if (slabs.size() > 0) out->voxel.slab = slabs[v];
     out->lobes.assign(lobes.data() + begin, lobes.data() + end);
     if (maps.size() > 0) out->maps.assign(maps.data() + begin, maps.data() + end);
     for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -30,6 +30,7 @@ struct TopLevel {
     HostBuffer<std::uint64_t> occupancy; ///< empty without fields.occupancy
     HostBuffer<DirectionSums> lobes;
     HostBuffer<MapSums> maps;
+    HostBuffer<OpenSlab> slabs;
 
     /// Returns a block's voxel; null if it has none.
     [[nodiscard]] std::unique_ptr<UpperVoxel> take(std::size_t slot) const;

@@ -69,6 +69,7 @@ arrays_of(executor::HostExecutor& exec, const Finest& finest, std::size_t begin,
     std::vector<std::uint32_t> first_lobe{0};
     std::vector<DirectionSums> lobes;
     std::vector<MapSums> maps;
+    std::vector<OpenSlab> slabs;
     for (std::size_t b = begin; b < end; ++b) {
         const VoxelBlock& block = finest.blocks[b];
         for (const KeyedVoxel& at : places_of(block, finest.index[b])) {
@@ -89,6 +90,12 @@ arrays_of(executor::HostExecutor& exec, const Finest& finest, std::size_t begin,
                 if (!block.map_sums.empty()) maps.push_back(block.map_sums[l]);
             }
             first_lobe.push_back(static_cast<std::uint32_t>(lobes.size()));
+            if (block.slabs.empty()) continue;
+            const Lobe& first = block.lobes[at.lobe];
+            const Vec3d edges = finest.source->info().lattice.voxel_size;
+            const bool surface =
+                finest.source->info().materials[first.material].kind == MaterialKind::Surface;
+            slabs.push_back(surface ? OpenSlab(block.slabs[at.voxel], edges) : OpenSlab());
         }
     }
     LevelArrays out;
@@ -102,6 +109,7 @@ arrays_of(executor::HostExecutor& exec, const Finest& finest, std::size_t begin,
     out.occupancy = exec.make_from(std::span<const std::uint64_t>(occupancy));
     out.lobes = exec.make_from(std::span<const DirectionSums>(lobes));
     out.maps = exec.make_from(std::span<const MapSums>(maps));
+    out.slabs = exec.make_from(std::span<const OpenSlab>(slabs));
     return out;
 }
 
@@ -114,6 +122,8 @@ BatchOptions settings_of(const Finest& finest, const LevelBuilder& builder) {
     out.level0.fields = info.fields;
     out.above.max_lobes = above.merge.max_lobes;
     out.above.fields = above.fields;
+    out.above.normals = above.normals;
+    out.above.voxel_size = above.lattice.voxel_size;
     out.levels = builder.built_levels();
     out.top = builder.wants_top();
     return out;

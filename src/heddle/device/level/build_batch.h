@@ -20,7 +20,7 @@ void build_batch_levels(Exec& exec,
     store_level_arrays(exec, level0, blocks, options.level0, out.level[0]);
     LevelArrays level = std::move(level0);
     for (int l = 1; l <= options.levels; ++l) {
-        level = build_level_arrays(exec, std::move(level), options.above.max_lobes);
+        level = build_level_arrays(exec, std::move(level), options.above);
         store_level_arrays(exec, level, blocks, options.above,
                            out.level[static_cast<std::size_t>(l)]);
     }
@@ -33,6 +33,7 @@ void build_batch_levels(Exec& exec,
     detail::download_array(exec, std::move(level.occupancy), out.top.occupancy);
     detail::download_array(exec, std::move(level.lobes), out.top.lobes);
     detail::download_array(exec, std::move(level.maps), out.top.maps);
+    detail::download_array(exec, std::move(level.slabs), out.top.slabs);
 }
 
 } // namespace heddle

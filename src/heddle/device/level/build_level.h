@@ -1,6 +1,7 @@
 #pragma once
 
 #include <heddle/device/level/build_level_op.h>
+#include <heddle/device/level/join_slabs_op.h>
 #include <heddle/device/level/level_arrays.h>
 
 #include <utility>
@@ -8,11 +9,12 @@
 namespace heddle {
 
 /// Builds a level of a batch from the level below by the method `moments`, as LevelBuilder does.
-/// @param below      is consumed: its lobes are merged in place
-/// @param max_lobes  K
-/// @throws Error     OutOfMemory, Device
+/// @param below    is consumed: its lobes are merged in place
+/// @param options  of the levels above 0
+/// @throws Error   OutOfMemory, Device
 template <typename Exec>
-[[nodiscard]] LevelArrays build_level_arrays(Exec& exec, LevelArrays below, int max_lobes) {
+[[nodiscard]] LevelArrays
+build_level_arrays(Exec& exec, LevelArrays below, const FitOptions& options) {
     exec.set_phase("levels");
     const std::size_t n = below.voxel_count;
     auto first = exec.template make<std::uint8_t>(n);
@@ -50,8 +52,8 @@ template <typename Exec>
     const auto lobes_left = exec.template make<std::uint8_t>(count);
     exec.for_each(count,
                   MergeChildrenOp{first_child.data(), below.first_lobe.data(), below.hits.data(),
-                                  below.lobes.data(), below.maps.data(), max_lobes, out.hits.data(),
-                                  out.order.data(), lobes_left.data()});
+                                  below.lobes.data(), below.maps.data(), options.max_lobes,
+                                  out.hits.data(), out.order.data(), lobes_left.data()});
     out.first_lobe = exec.template make<std::uint32_t>(count + 1);
     exec.offsets(lobes_left.data(), out.first_lobe.data(), count);
     out.lobe_count = exec.read(out.first_lobe.data() + count);
@@ -60,6 +62,11 @@ template <typename Exec>
     exec.for_each(count, TakeLobesOp{first_child.data(), below.first_lobe.data(),
                                      out.first_lobe.data(), below.lobes.data(), below.maps.data(),
                                      out.lobes.data(), out.maps.data()});
+    if (!options.fields.slabs) return out;
+    out.slabs = exec.template make<OpenSlab>(count);
+    exec.for_each(count, JoinSlabsOp{options, first_child.data(), child_mask.data(),
+                                     below.slabs.data(), below.hits.data(), out.first_lobe.data(),
+                                     out.lobes.data(), out.slabs.data()});
     return out;
 }
 

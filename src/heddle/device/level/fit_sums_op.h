@@ -87,7 +87,7 @@ struct FitVoxelOp {
         for (int w = 0; w < 8; ++w) count += count_bits(masks[DenseLobe::kSubvoxels + w]);
         hits[v] = static_cast<std::uint32_t>(count);
         if (occupancy != nullptr) {
-            occupancy[v] = cells_of_subvoxels(masks + DenseLobe::kSubvoxels, options.subvoxels);
+            occupancy[v] = cells_of_voxel(masks + DenseLobe::kSubvoxels, masks, options.subvoxels);
         }
         lobe_begin[v] = first_lobe[i];
         order[v] = 0;

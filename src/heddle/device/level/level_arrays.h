@@ -1,6 +1,7 @@
 #pragma once
 
 #include <heddle/executor/array.h>
+#include <heddle/lod/open_level.h>
 #include <heddle/sggx/direction_sums.h>
 #include <heddle/voxel/voxel_level.h>
 
@@ -25,7 +26,8 @@ struct LevelArrays {
     /// 3 x 4^level words per voxel, axis by axis, as in OpenLevel
     executor::Array<std::uint64_t> columns;
     executor::Array<DirectionSums> lobes;
-    executor::Array<MapSums> maps; ///< per lobe; with map sums only
+    executor::Array<MapSums> maps;   ///< per lobe; with map sums only
+    executor::Array<OpenSlab> slabs; ///< per voxel; with fields.slabs
 
     /// Returns the number of words along one axis of a voxel.
     [[nodiscard]] std::size_t words() const { return std::size_t{1} << (2 * level); }

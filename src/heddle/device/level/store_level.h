@@ -1,5 +1,6 @@
 #pragma once
 
+#include <heddle/device/level/join_slabs_op.h>
 #include <heddle/device/level/level_arrays.h>
 #include <heddle/device/level/store_level_op.h>
 #include <heddle/device/level/stored_level.h>
@@ -114,6 +115,14 @@ void store_sums(Exec& exec, const LevelArrays& level, const StoredOrder& order, 
     download_array(exec, std::move(maps), out.map_sums);
 }
 
+template <typename Exec>
+void store_slabs(Exec& exec, const LevelArrays& level, const StoredOrder& order, StoredLevel& out) {
+    const std::size_t n = out.options.fields.slabs ? level.voxel_count : 0;
+    auto slabs = exec.template make<PlaneSlab>(n);
+    exec.for_each(n, StoreSlabsOp{order.voxel_at.data(), level.slabs.data(), slabs.data()});
+    download_array(exec, std::move(slabs), out.slabs);
+}
+
 } // namespace detail
 
 /// Computes the stored form of a level and downloads it.
@@ -134,6 +143,7 @@ void store_level_arrays(Exec& exec,
     detail::store_occupancy(exec, level, order, out);
     detail::store_lobes(exec, level, order, out);
     detail::store_sums(exec, level, order, out);
+    detail::store_slabs(exec, level, order, out);
 }
 
 } // namespace heddle

@@ -74,6 +74,7 @@ void StoredLevel::cut(std::size_t slot, Vec3i index, VoxelBlock& out) const {
     cut_triples(columns, voxel, voxel_end, out.columns);
     cut_range(moments, lobe, lobe_end, out.moments);
     cut_range(map_sums, lobe, lobe_end, out.map_sums);
+    cut_range(slabs, voxel, voxel_end, out.slabs);
 }
 
 } // namespace heddle

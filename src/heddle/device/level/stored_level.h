@@ -27,6 +27,7 @@ struct StoredLevel {
     HostBuffer<std::uint64_t> columns;   ///< 3 per voxel; with fields.masks, level 0 only
     HostBuffer<LobeMoment> moments;      ///< per lobe; with fields.masks
     HostBuffer<MapSums> map_sums;        ///< per lobe; with fields.masks and map sums
+    HostBuffer<PlaneSlab> slabs;         ///< per voxel; with fields.slabs
 
     /// Copies a block's voxels, as the CPU's fit_block() or store_level() makes them.
     /// @param slot   number of the block in the batch

@@ -39,6 +39,23 @@ int sync_path(const std::string& path) {
     return error;
 }
 
+/// Returns what the user can do about an errno.
+const char* fix_of(int error) {
+    switch (error) {
+    case ENOENT:
+    case ENOTDIR: return "create its folder first";
+    case EISDIR: return "name a file, not a folder";
+    case EACCES:
+    case EPERM:
+    case EROFS: return "choose a file in a folder that you may write to";
+    case ENOSPC:
+    case EDQUOT: return "free some space, or choose a file on another disk";
+    case ELOOP: return "name the file itself, not this link";
+    case ENAMETOOLONG: return "choose a shorter name";
+    default: return "choose another file, on another disk if this one fails";
+    }
+}
+
 } // namespace
 
 OutputFile::OutputFile(std::string path) : path_(std::move(path)), final_path_(path_) {
@@ -78,11 +95,8 @@ OutputFile::~OutputFile() {
 
 void OutputFile::fail(const char* doing, int error) const {
     const bool no_folder = error == ENOENT || error == ENOTDIR;
-    const char* fix = "write to another place";
-    if (no_folder) fix = "make its folder first";
-    if (error == ENOSPC || error == EDQUOT) fix = "free some space or write to another disk";
     throw Error(no_folder ? ErrorCode::NotFound : ErrorCode::CannotWrite,
-                str("cannot ", doing, ": ", std::strerror(error)), fix, {.path = path_});
+                str("cannot ", doing, ": ", std::strerror(error)), fix_of(error), {.path = path_});
 }
 
 void OutputFile::write(const void* data, std::size_t bytes) {
@@ -124,6 +138,19 @@ void OutputFile::commit() {
     // the bytes are safe: a folder that cannot be synced is no reason to fail
     const fs::path folder = fs::path(final_path_).parent_path();
     static_cast<void>(sync_path(folder.empty() ? "." : folder.string()));
+}
+
+void make_folder(const std::string& path) {
+    std::error_code error;
+    fs::create_directories(path, error);
+    std::error_code ignored;
+    if (fs::is_directory(path, ignored)) return;
+    if (fs::exists(path, ignored)) {
+        throw Error(ErrorCode::CannotWrite, "this is a file, not a folder", "name a folder",
+                    {.path = path});
+    }
+    throw Error(ErrorCode::CannotWrite, str("cannot create this folder: ", error.message()),
+                "choose a folder that you may create", {.path = path});
 }
 
 } // namespace heddle

@@ -67,4 +67,8 @@ private:
     bool pending_ = false;  ///< the temporary file exists and must be removed
 };
 
+/// Creates a folder and those that it is in. A folder that exists stays as it is.
+/// @throws Error  CannotWrite: it is a file, or permission is missing
+void make_folder(const std::string& path);
+
 } // namespace heddle

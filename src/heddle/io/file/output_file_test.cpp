@@ -99,10 +99,23 @@ TEST(OutputFile, KeepsTheOldFilesModeAndTheLinkThatNamesIt) {
 
 TEST(OutputFile, MissingFolderDirectoryAndEmptyPathAreErrors) {
     const TempFolder folder;
-    expect_error(ErrorCode::NotFound, "make its folder first",
+    expect_error(ErrorCode::NotFound, "create its folder first",
                  [&] { OutputFile file(folder.file("no/a.bin")); });
-    expect_error(ErrorCode::CannotWrite, "Is a directory", [&] { OutputFile file(folder.path()); });
+    expect_error(ErrorCode::CannotWrite, "Is a directory; name a file, not a folder",
+                 [&] { OutputFile file(folder.path()); });
     expect_error(ErrorCode::InvalidArgument, "empty", [] { OutputFile file(""); });
+}
+
+TEST(OutputFile, AFolderIsMadeWithThoseThatItIsIn) {
+    const TempFolder folder;
+    make_folder(folder.file("a/b"));
+    make_folder(folder.file("a/b"));
+    EXPECT_TRUE(std::filesystem::is_directory(folder.file("a/b")));
+    const std::string path = folder.write("a.bin", "old");
+    expect_error(ErrorCode::CannotWrite, "a.bin: this is a file, not a folder; name a folder",
+                 [&] { make_folder(path); });
+    expect_error(ErrorCode::CannotWrite, "cannot create this folder: Not a directory",
+                 [&] { make_folder(path + "/b"); });
 }
 
 TEST(OutputFile, UnwritableFolderAndReadOnlyFileAreErrors) {

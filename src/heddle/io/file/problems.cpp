@@ -7,16 +7,16 @@
 
 namespace heddle {
 
-std::string to_string(const FileLocation& place) {
-    return place.line > 0 ? str(place.path, ":", place.line) : place.path;
+std::string to_string(const FileLocation& location) {
+    return location.line > 0 ? str(location.path, ":", location.line) : location.path;
 }
 
-void Problems::add(const FileLocation& place, const std::string& what, const std::string& fix) {
-    const auto at = std::find(files_.begin(), files_.end(), place.path);
+void Problems::add(const FileLocation& location, const std::string& what, const std::string& fix) {
+    const auto at = std::find(files_.begin(), files_.end(), location.path);
     const auto file = static_cast<std::size_t>(at - files_.begin());
-    if (at == files_.end()) files_.push_back(place.path);
+    if (at == files_.end()) files_.push_back(location.path);
     problems_.push_back(
-        {file, place.line, str(to_string(place), ": ", what, fix.empty() ? "" : "; ", fix)});
+        {file, location.line, str(to_string(location), ": ", what, fix.empty() ? "" : "; ", fix)});
 }
 
 void Problems::throw_if_any() {

@@ -13,14 +13,14 @@ struct FileLocation {
 };
 
 /// "scene.toml:12".
-[[nodiscard]] std::string to_string(const FileLocation& place);
+[[nodiscard]] std::string to_string(const FileLocation& location);
 
 /// Collects the problems of a file and of the files that it includes.
 class Problems {
 public:
     /// @param what  the problem, with the number or name that was found and what is allowed
     /// @param fix   what to do; may be empty
-    void add(const FileLocation& place, const std::string& what, const std::string& fix = {});
+    void add(const FileLocation& location, const std::string& what, const std::string& fix = {});
     /// @throws Error  BadFile if there is any problem: one per line, in the order of the files and
     ///                of their lines; problems of a whole file are last
     void throw_if_any();

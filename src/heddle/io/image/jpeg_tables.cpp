@@ -110,18 +110,18 @@ private:
         const bool needs_dc = !progressive_ || (first && byte(tail + 2) >> 4 == 0);
         const bool needs_ac = !progressive_ || !first;
         for (std::size_t c = 0; c < components; ++c) {
-            const std::size_t place = at + 2 + 2 * c;
-            const int tables = byte(place);
-            if (needs_dc) require(0, tables >> 4, place);
-            if (needs_ac) require(1, tables & 15, place);
+            const std::size_t offset = at + 2 + 2 * c;
+            const int tables = byte(offset);
+            if (needs_dc) require(0, tables >> 4, offset);
+            if (needs_ac) require(1, tables & 15, offset);
         }
     }
 
-    void require(std::size_t kind, int table, std::size_t place) const {
+    void require(std::size_t kind, int table, std::size_t offset) const {
         const auto slot = static_cast<std::size_t>(table);
         if (slot < kTables && defined_[kind].test(slot)) return;
-        fail(place, str("a scan takes the ", kind == 0 ? "DC" : "AC", " Huffman table ", table,
-                        ", which is not there"));
+        fail(offset, str("a scan takes the ", kind == 0 ? "DC" : "AC", " Huffman table ", table,
+                         ", which is not there"));
     }
 
     std::span<const std::byte> bytes_;

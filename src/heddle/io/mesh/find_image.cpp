@@ -25,8 +25,8 @@ bool is_image_suffix(const fs::path& path) {
 fs::path same_stem(const fs::path& folder, const fs::path& stem) {
     std::vector<fs::path> found;
     std::error_code error;
-    const fs::path place = folder.empty() ? fs::path(".") : folder;
-    for (const auto& entry : fs::directory_iterator(place, error)) {
+    const fs::path listed = folder.empty() ? fs::path(".") : folder;
+    for (const auto& entry : fs::directory_iterator(listed, error)) {
         if (entry.path().stem() == stem && is_image_suffix(entry.path()) && is_file(entry.path()))
             found.push_back(entry.path());
     }
@@ -47,17 +47,17 @@ std::optional<Texture>
 find_image(const fs::path& folder, const std::string& name, std::vector<std::string>& notes) {
     std::string slashed = name;
     std::replace(slashed.begin(), slashed.end(), '\\', '/'); // written on Windows
-    const fs::path place = locate(folder, slashed);
-    if (place.empty()) {
+    const fs::path path = locate(folder, slashed);
+    if (path.empty()) {
         notes.push_back(str("image '", name, "' is missing: its map is left out"));
         return std::nullopt;
     }
-    if (place != folder / slashed)
-        notes.push_back(str("image '", name, "' is missing: '", place.filename().string(),
+    if (path != folder / slashed)
+        notes.push_back(str("image '", name, "' is missing: '", path.filename().string(),
                             "' is taken in its place"));
     try {
-        Texture image = read_image(place);
-        image.name = place.filename().string();
+        Texture image = read_image(path);
+        image.name = path.filename().string();
         widen_grey(image);
         return image;
     } catch (const Error& e) {

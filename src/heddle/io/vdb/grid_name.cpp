@@ -13,9 +13,10 @@ constexpr std::string_view kLevelMark = "_level_";
 } // namespace
 
 std::string grid_name(GridKind kind, int index, int level, int part) {
-    static constexpr auto kStems = std::to_array<const char*>(
-        {"density", "tangentu", "normal", "coverage", "columns", "footprint", "footprint",
-         "occupancy", "correlation", "merge", "lobe", "albedo", "surface", "aniso", "sums"});
+    static constexpr auto kStems =
+        std::to_array<const char*>({"density", "tangentu", "normal", "coverage", "columns",
+                                    "footprint", "footprint", "occupancy", "correlation", "slab",
+                                    "merge", "lobe", "albedo", "surface", "aniso", "sums"});
     std::string name = kStems[static_cast<std::size_t>(kind)];
     if (kind == GridKind::Columns || kind == GridKind::FootprintAxis) {
         name += std::string("_") + "xyz"[index];

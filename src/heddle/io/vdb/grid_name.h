@@ -16,6 +16,7 @@ enum class GridKind : std::uint8_t {
     FootprintAxis, ///< int64: of 8 x 8 cells, one grid per axis
     Occupancy,     ///< int64
     Correlation,   ///< int32
+    Slab,          ///< int32
     Merge,         ///< int32
     Lobe,          ///< int64, one grid per lobe
     Albedo,        ///< int32, one grid per lobe

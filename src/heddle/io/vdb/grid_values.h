@@ -159,6 +159,17 @@ struct CorrelationValues : OfVoxel {
     }
 };
 
+/// The two planes of the first lobe.
+struct SlabValues : OfVoxel {
+    using Value = std::int32_t;
+    [[nodiscard]] Value value(const VoxelBlock& b, std::size_t v, std::size_t) const {
+        return bytes_as<Value>(b.slabs[v]);
+    }
+    void put(VoxelBlock& b, std::size_t v, std::size_t, Value from) const {
+        b.slabs[v] = from_bytes<PlaneSlab>(from);
+    }
+};
+
 /// Merge orders; two lobes have only one, so it is stored for voxels with more.
 struct MergeValues {
     using Value = std::int32_t;

@@ -36,6 +36,7 @@ void for_each_voxel_grid(const LevelGrids& of, const Visit& visit) {
     }
     if (of.fields.occupancy) visit(name(GridKind::Occupancy), OccupancyValues{});
     if (of.fields.correlation) visit(name(GridKind::Correlation), CorrelationValues{});
+    if (of.fields.slabs) visit(name(GridKind::Slab), SlabValues{});
     if (of.merge) visit(name(GridKind::Merge), MergeValues{});
 }
 

@@ -61,6 +61,7 @@ void size_arrays(VoxelBlock& block, const LevelGrids& of) {
     if (of.fields.footprints != 0) block.footprints.resize(voxels);
     if (of.fields.occupancy) block.occupancy.resize(voxels);
     if (of.fields.correlation) block.correlation.resize(voxels);
+    if (of.fields.slabs) block.slabs.resize(voxels);
     if (of.merge && std::any_of(block.lobe_count.begin(), block.lobe_count.end(), three)) {
         block.merge_order.resize(voxels);
     }
@@ -87,6 +88,7 @@ public:
             if constexpr (!kThere) fill(name, values);
         });
         if (of.merge) check_merges();
+        if (of.fields.slabs) check_slabs();
         return std::move(grid_);
     }
 
@@ -261,6 +263,21 @@ private:
         };
         for (const VoxelBlock& block : grid_->blocks) {
             for (const VoxelLeaf& leaf : block.leaves) check(block, leaf);
+        }
+    }
+
+    void check_slabs() const {
+        for (const VoxelBlock& block : grid_->blocks) {
+            for (const VoxelLeaf& leaf : block.leaves) {
+                for_each_in_grid(block, leaf, SlabValues{},
+                                 [&](std::size_t x, int bit, std::size_t v, std::size_t) {
+                                     const PlaneSlab& slab = block.slabs[v];
+                                     if (slab.lo <= slab.hi) return;
+                                     fail_at(str("has planes ", int{slab.lo}, " and ", int{slab.hi},
+                                                 " (allowed: ascending)"),
+                                             x, bit, leaf.origin);
+                                 });
+            }
         }
     }
 

@@ -7,6 +7,7 @@
 #include <heddle/io/vdb/vdb_file.h>
 #include <heddle/io/vdb/vdb_format.h>
 #include <heddle/io/vdb/write_vdb.h>
+#include <heddle/voxel/leaf_voxels.h>
 
 #include <gtest/gtest.h>
 
@@ -117,7 +118,7 @@ TEST_F(VdbLevels, GridsStandLevelByLevelInTheFile) {
     VoxelLevels levels = make_levels(2, 4);
     std::vector<std::string> names, want{"density", "tangentu", "normal", "coverage"};
     want.insert(want.end(), {"columns_x", "columns_y", "columns_z"});
-    want.insert(want.end(), {"footprint", "occupancy", "correlation", "merge"});
+    want.insert(want.end(), {"footprint", "occupancy", "correlation", "slab", "merge"});
     for (const std::string k : {"0", "1", "2"}) {
         for (const char* kind : {"lobe_", "albedo_", "surface_", "aniso_"}) {
             want.push_back(kind + k);
@@ -125,9 +126,9 @@ TEST_F(VdbLevels, GridsStandLevelByLevelInTheFile) {
         for (int j = 0; j < 19; ++j) want.push_back(str("sums_", k, "_", j));
     }
     for (const char* kind :
-         {"density",   "tangentu", "normal",   "coverage",  "footprint", "occupancy", "correlation",
-          "merge",     "lobe_0",   "albedo_0", "surface_0", "aniso_0",   "lobe_1",    "albedo_1",
-          "surface_1", "aniso_1",  "lobe_2",   "albedo_2",  "surface_2", "aniso_2"}) {
+         {"density",  "tangentu",  "normal",  "coverage", "footprint", "occupancy", "correlation",
+          "slab",     "merge",     "lobe_0",  "albedo_0", "surface_0", "aniso_0",   "lobe_1",
+          "albedo_1", "surface_1", "aniso_1", "lobe_2",   "albedo_2",  "surface_2", "aniso_2"}) {
         want.push_back(str(kind, "_level_1"));
     }
     for (const GridSummary& g : summarize_vdb(write(levels))) {
@@ -267,6 +268,40 @@ TEST_F(VdbLevels, LobesMaterialsAndMergeOrdersThatCannotBeAreRefused) {
         "has a lobe of weight 0");
 }
 
+TEST_F(VdbLevels, FilesWithSlabsAreOfFormat3AndOthersStayOfFormat2) {
+    const auto format_of = [](const std::string& path) {
+        return read_contents(path).metadata.at(kFormatKey);
+    };
+    VoxelLevels levels = make_levels(2);
+    EXPECT_EQ(format_of(write(levels)), "3");
+    for (std::size_t l = 0; l < 2; ++l) {
+        grid_of(levels, l).info().fields.slabs = false;
+        for (VoxelBlock& block : grid_of(levels, l).blocks) block.slabs.clear();
+    }
+    EXPECT_EQ(format_of(write(levels)), "2");
+    const VoxelLevels back = read_levels(file("levels.vdb"));
+    EXPECT_FALSE(back[0]->info().fields.slabs);
+    for_each_voxel(*back[1], [](const BlockVoxel& v) { EXPECT_EQ(v.slab(), PlaneSlab{}); });
+
+    std::string bytes = testing::slurp(file("levels.vdb"));
+    const std::string key = std::string(kFormatKey) + testing::bytes(5) + "int32";
+    const std::size_t at = bytes.find(key);
+    ASSERT_NE(at, std::string::npos);
+    bytes[at + key.size() + 4] = 4;
+    const std::string path = folder_.write("newer.vdb", bytes);
+    expect_error(ErrorCode::Unsupported, "format version 4 (allowed: 2 and 3)",
+                 [&] { (void)read_levels(path); });
+}
+
+TEST_F(VdbLevels, PlanesThatDescendAreRefused) {
+    expect_broken(
+        [&](const VoxelLevels& l) {
+            grid_of(l, 1).blocks[0].slabs[3] = {9, 8};
+        },
+        "of level 1 has planes 9 and 8 (allowed: ascending)");
+    expect_refused("slab_level_2", "slob_level_2", "grid 'slab_level_2' is missing");
+}
+
 TEST_F(VdbLevels, CutAndFlippedBytesGiveAnErrorOrVoxelsNeverACrash) {
     const std::string whole = testing::slurp(write(make_levels(2)));
     int refused = 0;
@@ -294,6 +329,7 @@ TEST_F(VdbLevels, LevelsOffTheirLatticeOrOutOfStepAreNotWritten) {
     refused([](VoxelLevels& l) { grid_of(l, 1).info().lattice.subvoxels = 4; }, "off its lattice");
     refused([](VoxelLevels& l) { grid_of(l, 0).blocks[2].columns.pop_back(); }, "arrays");
     refused([](VoxelLevels& l) { grid_of(l, 1).blocks[2].correlation.clear(); }, "arrays");
+    refused([](VoxelLevels& l) { grid_of(l, 1).blocks[2].slabs.clear(); }, "arrays");
     refused([](VoxelLevels& l) { grid_of(l, 1).info().fields.footprints = 5; }, "footprints of 5");
 }
 

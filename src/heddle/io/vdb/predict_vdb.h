@@ -41,6 +41,8 @@ predict_level_bytes(const LevelSize& of, const VoxelFields& fields, bool masks) 
     std::int64_t voxel_bytes = 4 + 6 + 8 + 8 * columns + 8 * footprints + 4 * fields.correlation;
     voxel_grids += fields.occupancy;
     voxel_bytes += 8 * fields.occupancy;
+    voxel_grids += fields.slabs;
+    voxel_bytes += 4 * fields.slabs;
     const std::int64_t merges = (of.lobes - of.voxels) / 2; // at most this many have three lobes
     const double lobes_per_voxel =
         of.voxels > 0 ? static_cast<double>(of.lobes) / static_cast<double>(of.voxels) : 1.0;

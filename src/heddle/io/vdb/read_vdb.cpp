@@ -84,6 +84,7 @@ VoxelFields find_fields(const std::string& path, const VdbContents& file) {
     fields.tangents = has(GridKind::Aniso);
     fields.occupancy = has(GridKind::Occupancy);
     fields.correlation = has(GridKind::Correlation);
+    fields.slabs = has(GridKind::Slab);
     fields.masks = any("columns_") || any("sums_");
     const bool four = has(GridKind::Footprint), eight = any("footprint_");
     if (four && eight) fail(path, "footprints of 4 and of 8 cells (allowed: one kind)");

@@ -73,6 +73,10 @@ inline void add_level_arrays(MemoryLevel& grid) {
                 const auto byte = [&] { return static_cast<std::uint8_t>(random.next()); };
                 block.correlation.push_back({byte(), byte(), byte()});
             }
+            if (has.slabs) {
+                const auto lo = static_cast<std::uint8_t>(random.next() % 256);
+                block.slabs.push_back({lo, static_cast<std::uint8_t>(lo + (255 - lo) / 2)});
+            }
             block.merge_order.push_back(static_cast<std::uint32_t>(random.next() % 2));
         }
         for (std::size_t l = 0; l < block.lobes.size() && masks; ++l) {
@@ -98,6 +102,7 @@ make_levels(int count, std::int32_t footprints = 8, const std::vector<int>& shif
         about.level = level;
         about.lod = "moments";
         about.fields.masks = about.fields.correlation = true;
+        about.fields.slabs = true;
         about.fields.footprints = footprints;
         about.fields.occupancy = true;
         add_level_arrays(*grid);
@@ -157,6 +162,7 @@ inline void expect_same_voxels(const MemoryLevel& a, const MemoryLevel& b) {
         EXPECT_TRUE(of_voxels(p->footprints, q->footprints));
         EXPECT_TRUE(of_voxels(p->correlation, q->correlation));
         EXPECT_TRUE(of_voxels(p->occupancy, q->occupancy));
+        EXPECT_TRUE(of_voxels(p->slabs, q->slabs));
         for (std::size_t v = 0; v < n; ++v) {
             if (counts[v] < 3 || p->merge_order.empty()) continue;
             ASSERT_FALSE(q->merge_order.empty());

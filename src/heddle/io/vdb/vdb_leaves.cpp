@@ -31,7 +31,8 @@ void check_arrays(const VoxelBlock& block, const VoxelLevelInfo& info) {
                        is(block.occupancy, has.occupancy, voxels) &&
                        is(block.correlation, has.correlation, voxels) &&
                        is(block.merge_order, !block.merge_order.empty(), voxels);
-    if (!whole) fail("a block's arrays are not as long as its fields say");
+    const bool placed = is(block.slabs, has.slabs, voxels);
+    if (!whole || !placed) fail("a block's arrays are not as long as its fields say");
 }
 
 void add_leaf(VdbLeaves& found,

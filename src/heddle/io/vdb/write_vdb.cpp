@@ -256,7 +256,7 @@ openvdb::MetaMap make_metadata(std::span<const LevelToWrite> levels) {
     }
     const InfoJson json = to_json(levels[0].info(), counts);
     const VoxelFields& has = levels[0].info().fields;
-    const bool placed = has.occupancy;
+    const bool placed = has.occupancy || has.slabs;
     openvdb::MetaMap metadata;
     metadata.insertMeta(kFormatKey, openvdb::Int32Metadata(placed ? kPlacedFormat : kPlainFormat));
     metadata.insertMeta(kLevelsKey, openvdb::Int32Metadata(static_cast<int>(levels.size())));

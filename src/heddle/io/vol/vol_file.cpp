@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t kHeaderBytes = 48;
 constexpr std::int32_t kMaxSize = 1 << 30;
-constexpr std::uint64_t kSlabBytes = 1u << 16; // a box up to this size is read in one piece
+constexpr std::uint64_t kLayerBytes = 1u << 16; // a box up to this size is read in one piece
 
 template <typename T>
 T value_at(const unsigned char* bytes) {
@@ -155,8 +155,8 @@ void VolFile::for_each_sample(Vec3i lo, Vec3i hi, const Decode& decode) const {
     const std::uint64_t each = header_.sample_bytes();
     const std::uint64_t row = u64(header_.size.x) * each;
     const std::uint64_t width = u64(hi.x - lo.x) * each;
-    const bool slab = u64(hi.y - lo.y) * row <= kSlabBytes;
-    const std::int32_t rows = slab ? hi.y - lo.y : 1;
+    const bool whole_layer = u64(hi.y - lo.y) * row <= kLayerBytes;
+    const std::int32_t rows = whole_layer ? hi.y - lo.y : 1;
     std::vector<unsigned char> bytes(u64(rows - 1) * row + width);
     std::size_t i = 0;
     for (std::int32_t z = lo.z; z < hi.z; ++z) {

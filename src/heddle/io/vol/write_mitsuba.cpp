@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 #include <numbers>
 #include <sstream>
@@ -128,15 +127,6 @@ struct GridFiles {
         if (albedo) albedo->commit();
     }
 };
-
-void make_folder(const std::string& folder) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (!std::filesystem::is_directory(folder)) {
-        throw Error(ErrorCode::CannotWrite, "it is not a folder and cannot be created",
-                    "write to another place", {.path = folder});
-    }
-}
 
 } // namespace
 

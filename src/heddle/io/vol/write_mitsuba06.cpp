@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <numbers>
 #include <sstream>
@@ -248,15 +247,6 @@ std::string scene_text(const Bounds& box, double scale, double stddev, Vec3f alb
         "\" up=\"0, 1, 0\"/>\n    </transform>\n",
         "    <sampler type=\"independent\">\n      <integer name=\"sampleCount\" value=\"64\"/>\n",
         "    </sampler>\n    <film type=\"hdrfilm\"/>\n  </sensor>\n</scene>\n");
-}
-
-void make_folder(const std::string& folder) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (!std::filesystem::is_directory(folder)) {
-        throw Error(ErrorCode::CannotWrite, "it is not a folder and cannot be created",
-                    "write to another place", {.path = folder});
-    }
 }
 
 /// The range of the voxels and their largest extinction.

@@ -8,7 +8,7 @@
 #include <heddle/job/level/level_plot.h>
 #include <heddle/job/level/scratch_folder.h>
 #include <heddle/job/option_error.h>
-#include <heddle/job/output_place.h>
+#include <heddle/job/write_output.h>
 #include <heddle/lod/level_subset.h>
 #include <heddle/lod/rebuild_levels.h>
 
@@ -121,7 +121,7 @@ MethodRow build(const Scope& scope,
                 LodMethod method,
                 const MeasureLevelsOptions& options,
                 LevelReporter& reporter,
-                StageClock& clock) {
+                PhaseClock& clock) {
     LodOptions lod;
     lod.method = method;
     lod.max_levels = static_cast<int>(scope.whole.size()) - 1;
@@ -156,7 +156,7 @@ void describe(const Scope& scope, const std::vector<GridSummary>& grids, LevelTa
 void measure_methods(const Scope& scope,
                      const MeasureLevelsOptions& options,
                      LevelTable& table,
-                     StageClock& clock) {
+                     PhaseClock& clock) {
     LevelReporter reporter(scope.finest(), scope.part ? nullptr : &scope.whole,
                            {.parents = options.parents, .seed = options.seed});
     table.coverage = reporter.coverage_truth();
@@ -175,7 +175,7 @@ void measure_methods(const Scope& scope,
 LevelTable measure(const VoxelLevels& levels,
                    const std::string& path,
                    const MeasureLevelsOptions& options,
-                   StageClock& clock) {
+                   PhaseClock& clock) {
     LevelTable table;
     table.file = path;
     const Scope scope = scope_of(levels, options);
@@ -184,7 +184,7 @@ LevelTable measure(const VoxelLevels& levels,
     measure_methods(scope, options, table, clock);
     if (options.plot) write_text(*options.plot, plot_levels(table));
     clock.finish();
-    table.stages = clock.stages();
+    table.phases = clock.phases();
     table.peak_bytes = peak_resident_bytes();
     return table;
 }
@@ -193,7 +193,7 @@ LevelTable measure(const VoxelLevels& levels,
 
 LevelTable
 measure_levels(const VoxelLevels& levels, const MeasureLevelsOptions& options, Progress& progress) {
-    StageClock clock(progress);
+    PhaseClock clock(progress);
     check_measure_options(options);
     if (levels.size() < 2) {
         throw OptionError("only the finest level is there, so there are no levels to measure");
@@ -203,7 +203,7 @@ measure_levels(const VoxelLevels& levels, const MeasureLevelsOptions& options, P
 
 LevelTable
 measure_levels(const std::string& path, const MeasureLevelsOptions& options, Progress& progress) {
-    StageClock clock(progress);
+    PhaseClock clock(progress);
     check_measure_options(options);
     if (read_infos(path).size() < 2) {
         throw Error(ErrorCode::BadFile,

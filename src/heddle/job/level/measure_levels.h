@@ -1,7 +1,7 @@
 #pragma once
 
 #include <heddle/base/progress.h>
-#include <heddle/job/stage_clock.h>
+#include <heddle/job/phase_clock.h>
 #include <heddle/lod/level_report.h>
 #include <heddle/lod/method.h>
 
@@ -59,7 +59,7 @@ struct LevelTable {
     std::vector<std::int64_t> file_bytes{}; ///< per level
     std::vector<MethodRow> methods{};       ///< "file" first, unless only a part is measured
     std::vector<std::string> notes{};
-    StageTimes stages{};
+    PhaseTimes phases{};
     std::int64_t peak_bytes = 0; ///< resident, of the process so far
 };
 

@@ -4,7 +4,7 @@
 #include <heddle/io/vdb/read_vdb.h>
 #include <heddle/io/vdb/write_vdb.h>
 #include <heddle/job/option_error.h>
-#include <heddle/job/output_place.h>
+#include <heddle/job/write_output.h>
 #include <heddle/lod/rebuild_levels.h>
 
 #include <utility>
@@ -53,9 +53,9 @@ void report_levels(const VoxelLevels& levels, RebuildLevelsReport& report, Progr
     }
 }
 
-void finish_report(RebuildLevelsReport& report, StageClock& clock) {
+void finish_report(RebuildLevelsReport& report, PhaseClock& clock) {
     clock.finish();
-    report.stages = clock.stages();
+    report.phases = clock.phases();
     report.seconds = clock.seconds();
     report.peak_bytes = peak_resident_bytes();
 }
@@ -64,7 +64,7 @@ void finish_report(RebuildLevelsReport& report, StageClock& clock) {
 
 RebuildLevelsResult
 rebuild_levels(VoxelLevels levels, const RebuildLevelsOptions& options, Progress& progress) {
-    StageClock clock(progress);
+    PhaseClock clock(progress);
     const LodOptions lod = asked_levels(options);
     if (options.exact && !levels.front()->info().fields.masks) {
         throw OptionError("`exact` needs voxels with columns and sums");
@@ -81,7 +81,7 @@ RebuildLevelsReport rebuild_levels_to_file(const std::string& path,
                                            const std::string& output,
                                            const RebuildLevelsOptions& options,
                                            Progress& progress) {
-    StageClock clock(progress);
+    PhaseClock clock(progress);
     const LodOptions lod = asked_levels(options);
     check_output(output, ".vdb");
     clock.begin("read", "files", 1);

@@ -2,7 +2,7 @@
 
 #include <heddle/base/progress.h>
 #include <heddle/job/levels.h>
-#include <heddle/job/stage_clock.h>
+#include <heddle/job/phase_clock.h>
 
 #include <cstdint>
 #include <optional>
@@ -25,7 +25,7 @@ struct RebuildLevelsReport {
     LevelCounts counts{};
     bool approximate = false; ///< the levels were built from stored lobes, not from sums
     std::vector<std::string> notes{};
-    StageTimes stages{};
+    PhaseTimes phases{};
     double seconds = 0.0;
     std::int64_t peak_bytes = 0; ///< resident, of the process so far
 };

@@ -4,8 +4,8 @@
 #include <heddle/flake/flake_field.h>
 #include <heddle/io/vdb/read_vdb.h>
 #include <heddle/job/option_error.h>
-#include <heddle/job/output_place.h>
-#include <heddle/job/stage_clock.h>
+#include <heddle/job/phase_clock.h>
+#include <heddle/job/write_output.h>
 
 namespace heddle::job {
 namespace {
@@ -59,7 +59,7 @@ FlakeField field_of(const VoxelLevel& voxels) {
     return {voxels, albedo};
 }
 
-void finish_report(ExportReport& report, StageClock& clock) {
+void finish_report(ExportReport& report, PhaseClock& clock) {
     clock.finish();
     report.seconds = clock.seconds();
     report.peak_bytes = peak_resident_bytes();
@@ -71,7 +71,7 @@ ExportReport export_volume(const VoxelLevel& voxels,
                            const std::string& folder,
                            const ExportOptions& options,
                            Progress& progress) {
-    StageClock clock(progress);
+    PhaseClock clock(progress);
     check_export_options(options);
     ExportReport report;
     clock.check();
@@ -87,7 +87,7 @@ ExportReport export_volume(const std::string& path,
                            const std::string& folder,
                            const ExportOptions& options,
                            Progress& progress) {
-    StageClock clock(progress);
+    PhaseClock clock(progress);
     check_export_options(options);
     clock.begin("read", "files", 1);
     std::unique_ptr<MemoryLevel> grid = read_vdb(path, options.level);

@@ -2,7 +2,7 @@
 
 #include <heddle/io/image/image.h>
 #include <heddle/io/vdb/read_vdb.h>
-#include <heddle/job/output_place.h>
+#include <heddle/job/write_output.h>
 
 namespace heddle::job {
 namespace {
@@ -34,7 +34,7 @@ PreviewReport preview_volume_to_file(const std::string& path,
                                      int level,
                                      const PreviewOptions& options,
                                      Progress& progress) {
-    StageClock clock(progress);
+    PhaseClock clock(progress);
     check_output(output, ".png");
     PreviewReport report;
     const PreviewImage image = draw(path, level, options, report.voxels, clock);
@@ -43,7 +43,7 @@ PreviewReport preview_volume_to_file(const std::string& path,
     clock.finish();
     report.width = image.width;
     report.height = image.height;
-    report.stages = clock.stages();
+    report.phases = clock.phases();
     return report;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <heddle/base/progress.h>
-#include <heddle/job/stage_clock.h>
+#include <heddle/job/phase_clock.h>
 #include <heddle/preview/preview.h>
 
 #include <cstdint>
@@ -14,7 +14,7 @@ struct PreviewReport {
     std::int64_t voxels = 0; ///< of the level that is shown
     std::int32_t width = 0;  ///< px
     std::int32_t height = 0;
-    StageTimes stages{};
+    PhaseTimes phases{};
 };
 
 /// Draws a quick picture of one level of a .vdb. For voxels in memory, call render_preview.

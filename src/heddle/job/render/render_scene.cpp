@@ -3,7 +3,7 @@
 #include <heddle/base/memory.h>
 #include <heddle/io/file/input_file.h>
 #include <heddle/job/option_error.h>
-#include <heddle/job/output_place.h>
+#include <heddle/job/write_output.h>
 #include <heddle/stage/render_job.h>
 #include <heddle/stage/scene_hash.h>
 

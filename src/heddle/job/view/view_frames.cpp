@@ -1,10 +1,11 @@
 #include <heddle/job/view/view_frames.h>
 
 #include <heddle/io/file/input_file.h>
+#include <heddle/io/file/output_file.h>
 #include <heddle/io/image/image.h>
 #include <heddle/io/vdb/read_vdb.h>
 #include <heddle/job/option_error.h>
-#include <heddle/job/output_place.h>
+#include <heddle/job/write_output.h>
 #include <heddle/yarn/slice_image.h>
 
 #include <filesystem>
@@ -38,7 +39,7 @@ FramesReport draw(const viewer::ViewedObject& subject,
                   const ViewOptions& options,
                   std::int64_t frames,
                   const TakeFrame& take,
-                  StageClock& clock) {
+                  PhaseClock& clock) {
     if (frames < 1) throw OptionError(str("`frames` is ", frames, "; it must be 1 or more"));
     const viewer::Settings settings = view_settings(options, subject);
     clock.check();
@@ -65,7 +66,7 @@ FramesReport draw(const viewer::ViewedObject& subject,
     report.driver = context.driver();
     report.slices = session.slice_count();
     report.blend = session.blend();
-    report.stages = clock.stages();
+    report.phases = clock.phases();
     return report;
 }
 
@@ -83,7 +84,7 @@ std::vector<std::string> load_curves(viewer::ViewedObject& subject, const ViewIn
 } // namespace
 
 LoadedView load_view(const ViewInput& input, const ViewOptions& options, Progress& progress) {
-    StageClock clock(progress);
+    PhaseClock clock(progress);
     check_view(input, options, false);
     clock.begin("read", "files", 1);
     LoadedView out;
@@ -101,7 +102,7 @@ LoadedView load_view(const ViewInput& input, const ViewOptions& options, Progres
     if (volume) out.subject.levels = std::make_shared<VoxelLevels>(read_levels(*volume));
     clock.check();
     clock.finish();
-    out.stages = clock.stages();
+    out.phases = clock.phases();
     return out;
 }
 
@@ -109,7 +110,7 @@ std::vector<viewer::RgbImage> draw_frames(const viewer::ViewedObject& subject,
                                           const ViewOptions& options,
                                           std::int64_t frames,
                                           Progress& progress) {
-    StageClock clock(progress);
+    PhaseClock clock(progress);
     std::vector<viewer::RgbImage> images;
     const TakeFrame take = [&](std::int64_t, const viewer::RgbImage& image, const auto&) {
         images.push_back(image);
@@ -122,7 +123,7 @@ FramesReport draw_frames_to_files(const viewer::ViewedObject& subject,
                                   const ViewOptions& options,
                                   const FramesOptions& frames,
                                   Progress& progress) {
-    StageClock clock(progress);
+    PhaseClock clock(progress);
     make_folder(subject.folder);
     const TakeFrame take = [&](std::int64_t frame, const viewer::RgbImage& image,
                                const viewer::Session& session) {
@@ -135,12 +136,7 @@ FramesReport draw_frames_to_files(const viewer::ViewedObject& subject,
 }
 
 void make_folder(const std::string& folder) {
-    std::error_code failed;
-    std::filesystem::create_directories(folder, failed);
-    if (!std::filesystem::is_directory(folder, failed)) {
-        throw Error(ErrorCode::CannotWrite, "cannot create this folder", "write to another path",
-                    {.path = folder});
-    }
+    heddle::make_folder(folder);
 }
 
 } // namespace heddle::job

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <heddle/base/progress.h>
-#include <heddle/job/stage_clock.h>
+#include <heddle/job/phase_clock.h>
 #include <heddle/job/view/view_options.h>
 
 #include <cstdint>
@@ -16,7 +16,7 @@ struct LoadedView {
     viewer::ViewedObject subject{};
     std::string volume{}; ///< path of the .vdb that is shown; empty: none
     std::vector<std::string> notes{};
-    StageTimes stages{};
+    PhaseTimes phases{};
 };
 
 /// How pictures are drawn without a window. The camera moves once around the object.
@@ -33,7 +33,7 @@ struct FramesReport {
     std::int64_t slices = 0;
     std::string blend{};          ///< how slices were blended, in words
     viewer::SliceTimes a_frame{}; ///< mean seconds per frame
-    StageTimes stages{};
+    PhaseTimes phases{};
 };
 
 /// Loads the input of a view. Procedural yarns are replaced by slices.

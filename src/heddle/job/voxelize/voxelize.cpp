@@ -3,9 +3,9 @@
 #include <heddle/base/memory.h>
 #include <heddle/io/vdb/predict_vdb.h>
 #include <heddle/io/vdb/write_vdb.h>
-#include <heddle/job/output_place.h>
 #include <heddle/job/voxelize/choose_device.h>
 #include <heddle/job/voxelize/fill_memory.h>
+#include <heddle/job/write_output.h>
 #include <heddle/yarn/slice_image.h>
 
 #include <filesystem>
@@ -17,7 +17,7 @@ namespace heddle::job {
 struct Voxelizer::Run {
     explicit Run(Progress& progress) : clock(progress) {}
 
-    StageClock clock;
+    PhaseClock clock;
     Geometry geometry;
     VoxelizeOptions options;
     ChosenDevice device;
@@ -40,9 +40,9 @@ VoxelLevels finish_levels(LevelBuilder* builder, std::unique_ptr<VoxelLevel> lev
     return levels;
 }
 
-void finish_report(VoxelizeReport& report, StageClock& clock) {
+void finish_report(VoxelizeReport& report, PhaseClock& clock) {
     clock.finish();
-    report.stages = clock.stages();
+    report.phases = clock.phases();
     report.seconds = clock.seconds();
     report.peak_bytes = peak_resident_bytes();
 }
@@ -79,7 +79,7 @@ std::unique_ptr<Voxelizer::Run> Voxelizer::prepare(GeometryInput input,
                                                    bool writes,
                                                    Progress& progress) {
     auto run = std::make_unique<Run>(progress);
-    StageClock& clock = run->clock;
+    PhaseClock& clock = run->clock;
     clock.begin("read", "files", 1);
     run->geometry = load_geometry(std::move(input));
     std::vector<std::string> notes = run->geometry.notes;
@@ -114,7 +114,7 @@ std::unique_ptr<Voxelizer::Run> Voxelizer::prepare(GeometryInput input,
 
 std::unique_ptr<VoxelLevel> Voxelizer::make_voxels(Run& run) {
     const VoxelizePlan& plan = run.report.plan;
-    StageClock& clock = run.clock;
+    PhaseClock& clock = run.clock;
     if (options_.backend == Backend::Raster) {
         raster::RasterCounts& counts = run.report.raster.emplace();
         return slice_voxelizer_.voxelize(run.geometry, run.options, plan, clock, run.builder.get(),

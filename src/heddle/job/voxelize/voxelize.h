@@ -3,7 +3,7 @@
 #include <heddle/base/progress.h>
 #include <heddle/job/geometry_input.h>
 #include <heddle/job/levels.h>
-#include <heddle/job/stage_clock.h>
+#include <heddle/job/phase_clock.h>
 #include <heddle/job/voxelize/voxelize_options.h>
 #include <heddle/voxelize/plan.h>
 
@@ -34,7 +34,7 @@ struct VoxelizeReport {
     std::optional<double>
         levels_thread_seconds{}; ///< summed over threads; none: no levels were built
     std::int64_t file_bytes = 0; ///< of the .vdb; 0: none was written
-    StageTimes stages{};
+    PhaseTimes phases{};
     double seconds = 0.0;
     std::int64_t peak_bytes = 0; ///< peak resident memory of the process
 };

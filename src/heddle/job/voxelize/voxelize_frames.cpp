@@ -1,7 +1,7 @@
 #include <heddle/job/voxelize/voxelize_frames.h>
 
 #include <heddle/job/option_error.h>
-#include <heddle/job/output_place.h>
+#include <heddle/job/write_output.h>
 
 #include <functional>
 #include <utility>

@@ -49,7 +49,7 @@ TEST(VoxelizeJob, MemoryAndFileHoldTheSameVoxelsByEachBackend) {
         EXPECT_GT(report.file_bytes, 0);
         EXPECT_EQ(made.report.raster.has_value(), backend == Backend::Raster);
         EXPECT_EQ(made.report.plan.fields.footprints, 4) << "curves alone have footprints";
-        EXPECT_GT(report.stages.size(), 2u);
+        EXPECT_GT(report.phases.size(), 2u);
     }
 }
 

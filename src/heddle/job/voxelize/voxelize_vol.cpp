@@ -6,7 +6,7 @@
 #include <heddle/io/vdb/write_vdb.h>
 #include <heddle/io/vol/read_vol.h>
 #include <heddle/job/option_error.h>
-#include <heddle/job/output_place.h>
+#include <heddle/job/write_output.h>
 #include <heddle/lod/rebuild_levels.h>
 
 #include <utility>
@@ -28,7 +28,7 @@ void check_vol_options(const VolJobOptions& o) {
     (void)lod_options(o.lod, o.levels, o.seed);
 }
 
-VolLayout find_layout(const std::string& path, const VolJobOptions& options, StageClock& clock) {
+VolLayout find_layout(const std::string& path, const VolJobOptions& options, PhaseClock& clock) {
     check_vol_options(options);
     clock.begin("find", "files", 1);
     VolLayout layout = find_vol_layout(path, options.orientation);
@@ -60,7 +60,7 @@ std::unique_ptr<VoxelLevel> hold(std::unique_ptr<VoxelLevel> source,
     return grid;
 }
 
-VoxelLevels make_levels(const VolJobOptions& options, VolReport& report, StageClock& clock) {
+VoxelLevels make_levels(const VolJobOptions& options, VolReport& report, PhaseClock& clock) {
     VolVolume volume = read_vol(report.layout,
                                 {.density_scale = options.density_scale.value_or(0.0),
                                  .albedo = options.albedo,
@@ -81,9 +81,9 @@ VoxelLevels make_levels(const VolJobOptions& options, VolReport& report, StageCl
     return levels;
 }
 
-void finish_report(VolReport& report, StageClock& clock) {
+void finish_report(VolReport& report, PhaseClock& clock) {
     clock.finish();
-    report.stages = clock.stages();
+    report.phases = clock.phases();
     report.seconds = clock.seconds();
     report.peak_bytes = peak_resident_bytes();
 }
@@ -95,14 +95,14 @@ bool is_vol_file(const std::string& path) {
 }
 
 VolReport plan_vol(const std::string& path, const VolJobOptions& options, Progress& progress) {
-    StageClock clock(progress);
+    PhaseClock clock(progress);
     VolReport report;
     report.layout = find_layout(path, options, clock);
     return report;
 }
 
 VolResult voxelize_vol(const std::string& path, const VolJobOptions& options, Progress& progress) {
-    StageClock clock(progress);
+    PhaseClock clock(progress);
     VolResult result;
     result.report.layout = find_layout(path, options, clock);
     result.levels = make_levels(options, result.report, clock);
@@ -115,7 +115,7 @@ VolReport voxelize_vol_to_file(const std::string& path,
                                const std::string& output,
                                const VolJobOptions& options,
                                Progress& progress) {
-    StageClock clock(progress);
+    PhaseClock clock(progress);
     check_output(output, ".vdb");
     VolReport report;
     report.layout = find_layout(path, options, clock);

@@ -3,7 +3,7 @@
 #include <heddle/base/progress.h>
 #include <heddle/io/vol/vol_layout.h>
 #include <heddle/job/levels.h>
-#include <heddle/job/stage_clock.h>
+#include <heddle/job/phase_clock.h>
 
 #include <cstdint>
 #include <optional>
@@ -33,7 +33,7 @@ struct VolReport {
     std::vector<std::string> notes{};
     LevelCounts counts{};
     std::int64_t file_bytes = 0; ///< of the .vdb; 0: none was written
-    StageTimes stages{};
+    PhaseTimes phases{};
     double seconds = 0.0;
     std::int64_t peak_bytes = 0; ///< resident, of the process so far
 };

@@ -21,14 +21,14 @@ int cubic_count(const YarnPath& path, const FlyawayHair& hair) {
 
 RoundPoint hair_at(const YarnPath& path, std::size_t ply, const FlyawayHair& hair, double q) {
     const double s = std::clamp(hair.z0 + hair.ze * q, 0.0, path.total());
-    const TracedYarnFrame place = path.at(path.knot_of_length(s));
-    const TracedPlyFrame at = path.ply(place, ply);
+    const TracedYarnFrame yarn = path.at(path.knot_of_length(s));
+    const TracedPlyFrame at = path.ply(yarn, ply);
     const double angle = hair.p0 + hair.pe * q;
     const double r = hair.r0 + hair.re * q;
     const double offset = static_cast<double>(path.yarn().ply_offset);
     return round_point(at.center + (offset + r * std::cos(angle)) * at.u +
                            (r * std::sin(angle)) * at.v,
-                       static_cast<double>(path.table().fiber_radius) * place.scale);
+                       static_cast<double>(path.table().fiber_radius) * yarn.scale);
 }
 
 /// Collects hairs as Bezier cubics.

@@ -69,19 +69,19 @@ private:
 
 template <typename Visit>
 void YarnPath::for_each_fiber(double t, const Visit& visit) const {
-    const TracedYarnFrame place = at(t);
+    const TracedYarnFrame yarn = at(t);
     const double* turns = spans_.front().course.turns_per_length;
-    const SinCos fiber = sincos_turns(turns[1] * place.s);
-    const SinCos wave = sincos_turns(turns[2] * place.s);
-    const double radius = static_cast<double>(table_.fiber_radius) * place.scale;
+    const SinCos fiber = sincos_turns(turns[1] * yarn.s);
+    const SinCos wave = sincos_turns(turns[2] * yarn.s);
+    const double radius = static_cast<double>(table_.fiber_radius) * yarn.scale;
     const auto d = [](float x) { return static_cast<double>(x); };
     for (std::size_t p = 0; p < ply_count(); ++p) {
-        const TracedPlyFrame frame = ply(place, p);
+        const TracedPlyFrame frame = ply(yarn, p);
         for (std::size_t i = table_.first_of_ply[p]; i < table_.first_of_ply[p + 1]; ++i) {
             const double phase =
                 d(table_.cos_migration[i]) * d(wave.cos) - d(table_.sin_migration[i]) * d(wave.sin);
             double r = d(table_.radius[i]) * (mean_ + amplitude_ * phase);
-            if (loops_) r *= loop_factor(i, place.s);
+            if (loops_) r *= loop_factor(i, yarn.s);
             const double c =
                 d(table_.cos_angle[i]) * d(fiber.cos) - d(table_.sin_angle[i]) * d(fiber.sin);
             const double s =

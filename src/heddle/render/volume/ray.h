@@ -2,6 +2,7 @@
 
 #include <heddle/base/vec.h>
 
+#include <cstdint>
 #include <limits>
 
 namespace heddle {
@@ -13,6 +14,16 @@ struct FiberStart {
     float free = 0.0f;   ///< length of the way back that is known to be free, scene units
 };
 
+class VolumeInstance;
+
+/// The sheet of a voxel on which a ray starts (sheet_law.h).
+struct SheetStart {
+    const VolumeInstance* volume = nullptr; ///< null: the ray starts elsewhere
+    int level = 0;
+    std::int64_t voxel = 0; ///< number in the level's arrays
+    int side = 0;           ///< 1: starts above the sheet; -1: below
+};
+
 /// A ray with the width of its footprint.
 struct Ray {
     Vec3d origin;                                         ///< scene units
@@ -21,7 +32,9 @@ struct Ray {
     float width = 0.0f;                                   ///< of the footprint at the origin
     float spread = 0.0f;                                  ///< growth of the width per unit of t
     float clear = 0.0f; ///< volumes are ignored for t < clear (self-shadowing)
-    FiberStart start{};
+    FiberStart from_fiber{};
+    float sheet = 0.5f; ///< where in their slabs the sheets are that the ray meets, 0 to 1
+    SheetStart from_sheet{};
 
     [[nodiscard]] Vec3d at(double t) const { return origin + to_double(direction) * t; }
     [[nodiscard]] float width_at(float t) const { return width + spread * t; }

@@ -8,7 +8,7 @@
 namespace heddle {
 
 const std::vector<std::string>& transport_names() {
-    static const std::vector<std::string> names{"auto", "product", "cells", "flakes"};
+    static const std::vector<std::string> names{"auto", "product", "cells", "sheet", "flakes"};
     return names;
 }
 

@@ -11,9 +11,10 @@ namespace heddle {
 
 /// How the extinctions of voxels along a ray are combined. docs/transport.md compares the choices.
 enum class Transport : std::uint8_t {
-    Automatic, ///< Cells for fibers if the file has them, else Product
+    Automatic, ///< Sheet if the file has slabs, Cells if it has occupancy bits, else Product
     Product,   ///< independent voxels: optical depths add up          [Fabre26, LopezMoreno17]
     Cells,     ///< by the set ones of a voxel's 4 x 4 x 4 cells; Product if the file has none
+    Sheet,     ///< surfaces are sheets within their plane slabs; Product if the file has none
     /// a FlakeMedium instead of a VolumeInstance: one SGGX per voxel, interpolated [Heitz15]
     Flakes
 };
@@ -27,8 +28,10 @@ enum class Transport : std::uint8_t {
 
 /// Returns the transport for a level, whose data may not allow the one that is asked for.
 [[nodiscard]] inline Transport resolve(Transport asked, const TraversalLevel& level) {
-    const bool wants = asked == Transport::Cells || asked == Transport::Automatic;
-    return wants && level.has_cells() ? Transport::Cells : Transport::Product;
+    const bool any = asked == Transport::Automatic;
+    if (level.has_sheets() && (any || asked == Transport::Sheet)) return Transport::Sheet;
+    if (level.has_cells() && (any || asked == Transport::Cells)) return Transport::Cells;
+    return Transport::Product;
 }
 
 /// Combines three optical depths along the axes into one: the root of the sum of squares.

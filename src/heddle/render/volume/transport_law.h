@@ -2,6 +2,7 @@
 
 #include <heddle/base/random.h>
 #include <heddle/render/volume/cell_law.h>
+#include <heddle/render/volume/sheet_law.h>
 #include <heddle/render/volume/transport.h>
 #include <heddle/render/volume/walk.h>
 
@@ -44,8 +45,26 @@ public:
         threshold_ -= depth;
         return true;
     }
+    /// Crosses a sheet, which stops the ray with probability 1 - exp(-depth).
+    /// @param side  of the sheet from which the ray comes: 1 above, -1 below
+    /// @return      false: the traversal ends here
+    bool pass_sheet(float t, float depth, int side) {
+        depth_ += depth;
+        if (goes_on(depth)) {
+            threshold_ -= depth;
+            return true;
+        }
+        t_ = t;
+        side_ = side;
+        stopped_ = true;
+        return false;
+    }
+    [[nodiscard]] LastSheet& last_sheet() { return last_sheet_; }
+
     [[nodiscard]] bool stopped() const { return stopped_; }
     [[nodiscard]] float t() const { return t_; } ///< where a flight stopped
+    /// Returns the side of the sheet that stopped the ray; 0 if no sheet did.
+    [[nodiscard]] int side() const { return side_; }
     [[nodiscard]] float transmittance() const { return stopped_ ? 0.0f : std::exp(-depth_); }
 
 private:
@@ -68,6 +87,8 @@ private:
     float depth_ = 0.0f; ///< optical depth so far
     float t_ = 0.0f;
     bool stopped_ = false;
+    int side_ = 0;
+    LastSheet last_sheet_;
 };
 
 /// Product: each voxel stops a ray on its own.                        [Fabre26, LopezMoreno17]
@@ -88,18 +109,30 @@ private:
     Vec3f rate_;
 };
 
+/// What a law needs of a ray beside its path.
+struct LawArguments {
+    const FiberStart& from_fiber; ///< Ray::from_fiber
+    float sheet;                  ///< Ray::sheet
+    std::int64_t start;           ///< voxel of the level on whose sheet the ray starts; -1: none
+    float scale;                  ///< of the volume instance
+};
+
 /// Calls walk(law) with the law of the transport that resolve() gives for the level.
 /// @param ray   in the level's voxels; must outlive the call
 template <typename Walk>
 void with_law(Transport asked,
               const TraversalLevel& level,
               const VoxelRay& ray,
-              const FiberStart& start,
-              float scale,
+              const LawArguments& from,
               RayPassage& passage,
               const Walk& walk) {
     switch (resolve(asked, level)) {
-    case Transport::Cells: walk(CellLaw<RayPassage>(level, ray, start, scale, passage)); return;
+    case Transport::Cells:
+        walk(CellLaw<RayPassage>(level, ray, from.from_fiber, from.scale, passage));
+        return;
+    case Transport::Sheet:
+        walk(SheetLaw<RayPassage>(level, ray, from.sheet, from.start, passage));
+        return;
     default: walk(ProductLaw(level, ray, passage)); return;
     }
 }

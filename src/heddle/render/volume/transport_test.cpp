@@ -48,7 +48,7 @@ TEST(Transport, FlightsPassAsOftenAsTransmittanceSays) {
         const Vec3d from = to_double(random_direction(random)) * (r < 2 ? 1.0 : 8.0);
         Ray ray = ray_along(from, to_double(random_direction(random)) * 2.0 - from);
         ray.t_max = r % 2 == 0 ? 3.0f : 30.0f;
-        if (r >= 3) ray.start = {0.02f, 0.9f - 0.4f * static_cast<float>(r - 3), 2.0f};
+        if (r >= 3) ray.from_fiber = {0.02f, 0.9f - 0.4f * static_cast<float>(r - 3), 2.0f};
         expect_equal_laws(volume, kFinest, ray);
     }
 }

@@ -1,6 +1,7 @@
 #include <heddle/render/volume/traversal_level.h>
 
 #include <heddle/base/parallel.h>
+#include <heddle/voxel/leaf_voxels.h>
 
 #include <algorithm>
 #include <cmath>
@@ -61,7 +62,8 @@ std::int64_t bytes_of(const std::vector<T>& v) {
 
 } // namespace
 
-TraversalLevel::TraversalLevel(const VoxelLevel& source) : info_(source.info()) {
+TraversalLevel::TraversalLevel(const VoxelLevel& source, const VoxelLevel* parents)
+    : info_(source.info()) {
     const std::vector<std::uint16_t> table = depth_table(info_.lattice);
     voxels_.reserve(static_cast<std::size_t>(info_.voxel_count));
     lobes_.reserve(static_cast<std::size_t>(info_.lobe_count));
@@ -76,6 +78,7 @@ TraversalLevel::TraversalLevel(const VoxelLevel& source) : info_(source.info()) 
         for (const VoxelLeaf& leaf : block.leaves) origins.push_back(leaf.origin);
         append_to(correlation, block.correlation);
     }
+    if (has_cells() && correlation.empty() && parents != nullptr) correlation = correlate(*parents);
     if (has_cells()) fit_cells(origins, correlation);
     if (box.empty()) return;
     lo_ = box.lo;
@@ -109,6 +112,46 @@ void TraversalLevel::append(const VoxelBlock& block,
     append_to(maps_, block.maps);
     append_to(tangents_, block.tangents);
     if (fibers_only_) append_to(cells_, block.occupancy);
+    if (!block.slabs.empty()) append_sheets(block, first_voxel);
+}
+
+std::vector<std::array<std::uint8_t, 3>>
+TraversalLevel::correlate(const VoxelLevel& parents) const {
+    std::vector<std::array<std::uint8_t, 3>> out(voxels_.size());
+    for_each_voxel(parents, [&](const BlockVoxel& parent) {
+        const Coverage& c = parent.coverage();
+        const std::array<std::uint16_t, 3> whole{c.x, c.y, c.z};
+        std::array<std::int64_t, 8> child;
+        for (int i = 0; i < 8; ++i) {
+            const Vec3i at = parent.at * 2 + Vec3i{i >> 2, i >> 1 & 1, i & 1};
+            const LeafLookup place = find_leaf(at);
+            child[static_cast<std::size_t>(i)] = place.leaf == nullptr ? -1 : place.leaf->find(at);
+        }
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto coverage = [&](std::size_t i) {
+                return child[i] < 0
+                           ? 0.0f
+                           : coverage_of(voxels_[static_cast<std::size_t>(child[i])].depth[axis]);
+            };
+            const std::size_t step = std::size_t{4} >> axis;
+            float independent = 0.0f, nested = 0.0f; // unions of the four pairs behind each other
+            for (std::size_t i = 0; i < 8; ++i) {
+                if ((i & step) != 0) continue;
+                const float c1 = coverage(i), c2 = coverage(i + step);
+                independent += c1 + c2 - c1 * c2;
+                nested += std::max(c1, c2);
+            }
+            if (!(independent > nested)) continue;
+            const float both = 4.0f * static_cast<float>(whole[axis]) / 65535.0f;
+            const float rho = std::clamp((independent - both) / (independent - nested), 0.0f, 1.0f);
+            for (const std::int64_t v : child) {
+                if (v < 0) continue;
+                out[static_cast<std::size_t>(v)][axis] =
+                    static_cast<std::uint8_t>(rho * 255.0f + 0.5f);
+            }
+        }
+    });
+    return out;
 }
 
 std::int64_t TraversalLevel::next_voxel(Vec3i at, int axis) const {
@@ -204,9 +247,26 @@ void TraversalLevel::fit_cells(const std::vector<Vec3i>& origins,
     });
 }
 
+void TraversalLevel::append_sheets(const VoxelBlock& block, std::size_t first_voxel) {
+    std::size_t lobe = 0;
+    for (std::size_t v = 0; v < block.slabs.size(); ++v) {
+        const Lobe& first = block.lobes[lobe];
+        lobe += block.lobe_count[v];
+        const bool fiber = info_.materials[first.material].kind == MaterialKind::Fiber;
+        if (fiber) {
+            sheets_.push_back({{}, 0, 0, 0, voxels_[first_voxel + v].depth});
+            continue;
+        }
+        const Coverage& c = block.coverage[v];
+        const auto share = [](std::uint16_t x) { return static_cast<double>(x) / 65535.0; };
+        sheets_.push_back(
+            make_sheet(info_.lattice, {block.slabs[v], {share(c.x), share(c.y), share(c.z)}}));
+    }
+}
+
 std::int64_t TraversalLevel::byte_count() const {
     return table_.byte_count() + bytes_of(leaves_) + bytes_of(voxels_) + bytes_of(lobes_) +
-           bytes_of(maps_) + bytes_of(tangents_) + bytes_of(cells_);
+           bytes_of(maps_) + bytes_of(tangents_) + bytes_of(cells_) + bytes_of(sheets_);
 }
 
 } // namespace heddle

@@ -4,6 +4,7 @@
 #include <heddle/leaf_table/leaf_table.h>
 #include <heddle/leaf_table/ranked_mask.h>
 #include <heddle/render/volume/cell_extinction.h>
+#include <heddle/render/volume/sheet_voxel.h>
 #include <heddle/voxel/index_box.h>
 #include <heddle/voxel/voxel_level.h>
 
@@ -43,11 +44,14 @@ struct TraversalLeaf {
 /// One level of an object in the layout that rays traverse: leaves of 8^3 voxels in a LeafTable, so
 /// that rays skip 64 or 8 empty voxels at a time.
 ///
-/// Memory: 8 bytes per voxel, 8 per lobe, 96 per leaf, the LeafTable, and the optional arrays.
+/// Memory: 8 bytes per voxel, 8 per lobe, 96 per leaf, the LeafTable, and the optional arrays, of
+/// which the sheets take 16 bytes per voxel.
 class TraversalLevel {
 public:
     /// Copies the data of `source`, which need not outlive this object.
-    explicit TraversalLevel(const VoxelLevel& source);
+    /// @param parents  the level above it, whose coverage tells how far voxels behind each other
+    ///                 cover the same, if the file has no correlation; null: unknown
+    explicit TraversalLevel(const VoxelLevel& source, const VoxelLevel* parents = nullptr);
 
     [[nodiscard]] const VoxelLevelInfo& info() const { return info_; }
     /// Bounds of the indices of all voxels: [lo, hi).
@@ -109,6 +113,11 @@ public:
     }
     /// Returns true if all materials are of fibers.
     [[nodiscard]] bool fibers_only() const { return fibers_only_; }
+    [[nodiscard]] bool has_sheets() const { return !sheets_.empty(); }
+    /// @param v  a voxel of a level that has sheets
+    [[nodiscard]] const SheetVoxel& sheet(std::int64_t v) const {
+        return sheets_[static_cast<std::size_t>(v)];
+    }
     [[nodiscard]] std::int64_t byte_count() const;
 
 private:
@@ -123,8 +132,12 @@ private:
     /// Sets crowding_.
     /// @param extinction  of the cells, per voxel and axis
     void find_crowding(const std::vector<std::array<float, 3>>& extinction);
+    /// Returns VoxelBlock::correlation of all voxels as the coverage of their parents tells it.
+    [[nodiscard]] std::vector<std::array<std::uint8_t, 3>>
+    correlate(const VoxelLevel& parents) const;
     /// Returns the number of the voxel after the one at `at` along an axis; -1 if there is none.
     [[nodiscard]] std::int64_t next_voxel(Vec3i at, int axis) const;
+    void append_sheets(const VoxelBlock& block, std::size_t first_voxel);
 
     VoxelLevelInfo info_;
     bool fibers_only_ = true;
@@ -140,6 +153,7 @@ private:
     std::vector<LobeMaps> maps_;
     std::vector<PackedSggx> tangents_;
     std::vector<std::uint64_t> cells_;
+    std::vector<SheetVoxel> sheets_;
 };
 
 } // namespace heddle

@@ -182,6 +182,15 @@ int VolumeInstance::usable_level(int level) const {
     return 0;
 }
 
+LastSheet VolumeInstance::start_sheet(const Ray& ray, Vec3d direction) const {
+    const TraversalLevel& level = *pyramid_[static_cast<std::size_t>(ray.from_sheet.level)];
+    const Vec3f edges = to_float(level.info().lattice.voxel_size);
+    const detail::PlacedSheet sheet =
+        detail::place_sheet(level.sheet(ray.from_sheet.voxel), edges, ray.sheet);
+    const float slope = dot(sheet.normal, to_float(direction));
+    return {sheet.normal, 0.0f, slope, 0.0f, sheet.thickness, ray.from_sheet.side};
+}
+
 template <typename Note>
 void VolumeInstance::walk(const Ray& ray,
                           Transport transport,
@@ -192,6 +201,8 @@ void VolumeInstance::walk(const Ray& ray,
     const Vec3d origin = to_object_.point(ray.origin);
     const Vec3d direction = to_object_.direction(to_double(ray.direction));
     const RayRange range = clip(origin, direction, ray.clear, ray.t_max, object_bounds_);
+    const bool starts = ray.from_sheet.volume == this;
+    if (starts) passage.last_sheet() = start_sheet(ray, direction);
     for (float t = range.t0; t < range.t1 && !passage.stopped();) {
         const WantedLevel wanted =
             find_wanted(ray, choice, static_cast<float>(voxel_size_), t, range.t1);
@@ -202,7 +213,10 @@ void VolumeInstance::walk(const Ray& ray,
         const VoxelRay voxel_ray{origin * per, direction * per};
         const RayRange inside =
             clip(origin, direction, t, wanted.end, level_bounds_[static_cast<std::size_t>(number)]);
-        with_law(transport, level, voxel_ray, ray.start, scale_, passage, [&](auto law) {
+        const std::int64_t start =
+            starts && number == ray.from_sheet.level ? ray.from_sheet.voxel : -1;
+        const LawArguments from{ray.from_fiber, ray.sheet, start, scale_};
+        with_law(transport, level, voxel_ray, from, passage, [&](auto law) {
             traverse_voxels(level, voxel_ray, inside.t0, inside.t1, [&](const VoxelStep& step) {
                 if (law.pass(step)) return true;
                 note(number, step);
@@ -220,7 +234,7 @@ bool VolumeInstance::sample_flight(const Ray& ray,
                                    VolumeHit& hit) const {
     RayPassage passage(true, random);
     walk(ray, transport, choice, passage, [&](int level, const VoxelStep& step) {
-        hit = {passage.t(), level, &step.leaf, step.voxel};
+        hit = {passage.t(), level, &step.leaf, step.voxel, passage.side()};
     });
     return passage.stopped();
 }

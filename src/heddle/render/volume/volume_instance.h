@@ -16,6 +16,7 @@
 namespace heddle {
 
 class RayPassage;
+struct LastSheet;
 
 /// The levels of an object, finest first; a level that a picture does not need is null.
 using TraversalLevels = std::vector<std::shared_ptr<const TraversalLevel>>;
@@ -26,6 +27,7 @@ struct VolumeHit {
     int level = 0;
     const TraversalLeaf* leaf = nullptr;
     std::int64_t voxel = 0;
+    int side = 0; ///< of the voxel's sheet from which the ray came: 1, -1; 0: met no sheet
 };
 
 /// The scatterer at which a free flight ended.
@@ -92,6 +94,8 @@ private:
               RayPassage& passage,
               const Note& note) const;
     [[nodiscard]] int usable_level(int level) const;
+    /// Returns the sheet on which a ray starts, as the last one that it met.
+    [[nodiscard]] LastSheet start_sheet(const Ray& ray, Vec3d direction) const;
     /// Transforms a scatterer from object to world space. @param normal  `out.axis` is a normal
     void turn_to_world(bool normal, Scatterer& out) const;
 

@@ -238,7 +238,7 @@ int Session::level_count() const {
     return voxels_ ? voxels_->tables().level_count() : 0;
 }
 
-std::string Session::place_of(const char* suffix) const {
+std::string Session::path_with(const char* suffix) const {
     return (std::filesystem::path(subject_.folder) / (subject_.name + "_view" + suffix)).string();
 }
 
@@ -253,8 +253,8 @@ void Session::write_picture() {
     picture_wanted_ = false;
     attempt([&] {
         const RgbImage image = picture_->fine().image();
-        write_png(place_of(".png"), image.width, image.height, 3, image.rgb);
-        message_ = "saved " + place_of(".png");
+        write_png(path_with(".png"), image.width, image.height, 3, image.rgb);
+        message_ = "saved " + path_with(".png");
     });
 }
 
@@ -269,14 +269,14 @@ void Session::save(bool scene) {
         return;
     }
     const std::string text = scene ? this->scene(subject_.name + "_view.vdb") : std::string();
-    start([levels = subject_.levels, text, volume = place_of(".vdb"),
-           place = place_of(".toml")](Progress& progress) -> JobResult {
+    start([levels = subject_.levels, text, volume = path_with(".vdb"),
+           path = path_with(".toml")](Progress& progress) -> JobResult {
         write_vdb(*levels, volume, progress);
         if (text.empty()) return {"saved " + volume, nullptr};
-        OutputFile file(place);
+        OutputFile file(path);
         file.write(text.data(), text.size());
         file.commit();
-        return {"saved " + place + " and its .vdb", nullptr};
+        return {"saved " + path + " and its .vdb", nullptr};
     });
 }
 

@@ -103,7 +103,7 @@ private:
     template <typename Run>
     bool attempt(Run&& run);
     [[nodiscard]] double aspect() const;
-    [[nodiscard]] std::string place_of(const char* suffix) const;
+    [[nodiscard]] std::string path_with(const char* suffix) const;
 
     const opengl::Context& context_;
     ViewedObject subject_;

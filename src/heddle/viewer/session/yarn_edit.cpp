@@ -19,7 +19,7 @@ std::uint32_t tinted(std::uint32_t color, Vec3f tint) {
     return out;
 }
 
-/// Kinds may share a material, so points carry the tint, in place of the material's colour.
+/// Kinds may share a material, so points carry the tint, in point of the material's colour.
 void tint_set(CurveSet& set, const Material& material, Vec3f tint) {
     if (tint == Vec3f{1.0f, 1.0f, 1.0f}) return;
     if (set.color.empty()) set.color.assign(set.points.size(), pack_color(material.albedo));
@@ -71,15 +71,15 @@ Bounds seen_bounds(const Geometry& geometry, const CameraParameters& camera, dou
     for (const CurveSet& set : geometry.curves) {
         const YarnType* yarn = geometry.yarn_of(set);
         for (std::size_t i = 0; i < set.points.size(); ++i) {
-            const Vec3d place = to_double(set.points[i]);
-            const Vec3d seen = axes.of(place - camera.eye);
+            const Vec3d point = to_double(set.points[i]);
+            const Vec3d seen = axes.of(point - camera.eye);
             const double at = camera.orthographic ? 1.0 : seen.z;
             if (!(at > 0.0) || std::fabs(seen.x) > tall * aspect * at ||
                 std::fabs(seen.y) > tall * at) {
                 continue;
             }
             const float fixed = yarn == nullptr ? 0.0f : yarn->radius;
-            out.grow(place, static_cast<double>(std::max(fixed, set.radius_at(i))));
+            out.grow(point, static_cast<double>(std::max(fixed, set.radius_at(i))));
         }
     }
     return out;

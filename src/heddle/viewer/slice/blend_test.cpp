@@ -26,8 +26,8 @@ Geometry knit() {
 TEST(Blend, TenThousandSortedSlicesAreWithinOneOf255OfTheReferenceOnAllButATenthOfAPercent) {
     const opengl::Context context;
     const Geometry geometry = knit();
-    SliceRenderer view(context, geometry, {.pixel = kPixel});
-    ASSERT_GT(view.slice_count(), 10000);
+    SliceRenderer renderer(context, geometry, {.pixel = kPixel});
+    ASSERT_GT(renderer.slice_count(), 10000);
     const slice::SectionLayers layers = slice::build_sections(geometry, 0);
     const LatticeUnits units({.voxel_size = {kPixel, kPixel, kPixel}, .subvoxels = 1});
     const std::vector<slice::SliceChunk> chunks =
@@ -37,11 +37,11 @@ TEST(Blend, TenThousandSortedSlicesAreWithinOneOf255OfTheReferenceOnAllButATenth
     const SliceLook look{.shadows = false};
     for (const double angle : {0.0, 0.6}) {
         Orbit orbit{.view_angle = angle};
-        orbit.frame(view.ball(), 1.0);
+        orbit.frame(renderer.ball(), 1.0);
         orbit.zoom(1.5);
         const RenderTarget target(kSize, kSize);
         target.clear();
-        view.draw(target, orbit.camera(), look);
+        renderer.draw(target, orbit.camera(), look);
         const std::vector<float> drawn = target.read();
         const std::vector<double> truth = reference.draw(orbit.camera(), kSize, kSize, look.light);
         int off = 0;

@@ -130,9 +130,9 @@ void SliceRenderer::draw(const RenderTarget& target,
     if (weighted) {
         s.draw_weighted(target, program, eye, look);
     } else {
-        const std::uint32_t slabs = s.slices->see(0, eye, s.middle(), look.sorted);
+        const std::uint32_t segments = s.slices->see(0, eye, s.middle(), look.sorted);
         sorted = waited("sort slices");
-        s.draw_sorted(target, program, eye, look, slabs);
+        s.draw_sorted(target, program, eye, look, segments);
     }
     const auto drawn = waited("draw slices");
     if (times == nullptr) return;

@@ -28,7 +28,7 @@ enum class SliceColor : std::uint8_t {
 /// The appearance of slices.
 struct SliceLook {
     Vec3d light{-0.5, 0.6, 1.0}; ///< from the object to the light, nonzero length
-    bool sorted = true;    ///< slabs from the farthest to the nearest; else as they were placed
+    bool sorted = true;    ///< segments from the farthest to the nearest; else as they were placed
     bool weighted = false; ///< order-independent blending instead; always if slices fill
                            ///< more than one chunk
     bool shadows = true;   ///< with a shadow map

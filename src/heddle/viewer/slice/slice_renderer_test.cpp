@@ -32,12 +32,13 @@ SliceLook look_of(bool sorted, bool shadows, Vec3d light = {0.0, 0.0, 1.0}) {
 }
 
 /// All of it from a side; rays are parallel if `view_angle` is 0.
-RgbImage picture(SliceRenderer& view, Vec3d from, const SliceLook& look, double view_angle = 0.0) {
+RgbImage
+picture(SliceRenderer& renderer, Vec3d from, const SliceLook& look, double view_angle = 0.0) {
     Orbit orbit{.from = from, .view_angle = view_angle};
-    orbit.frame(view.ball(), 1.0);
+    orbit.frame(renderer.ball(), 1.0);
     const RenderTarget target(kSize, kSize);
     target.clear();
-    view.draw(target, orbit.camera(), look);
+    renderer.draw(target, orbit.camera(), look);
     return target.image();
 }
 
@@ -60,12 +61,12 @@ bool is_blue(Rgb p) {
 TEST(SliceView, TheNearerYarnIsInFrontFromBothSidesOnlyWhenSorted) {
     const opengl::Context context;
     for (const double angle : {0.0, 0.6}) {
-        SliceRenderer view(context, cross_at(0.3f), {});
+        SliceRenderer renderer(context, cross_at(0.3f), {});
         SliceRenderer behind(context, cross_at(-0.3f), {});
         for (const bool sorted : {true, false}) {
             const SliceLook look = look_of(sorted, false);
-            const Rgb front = pixel(picture(view, kFront, look, angle), kSize / 2, kSize / 2);
-            const Rgb back = pixel(picture(view, kBack, look, angle), kSize / 2, kSize / 2);
+            const Rgb front = pixel(picture(renderer, kFront, look, angle), kSize / 2, kSize / 2);
+            const Rgb back = pixel(picture(renderer, kBack, look, angle), kSize / 2, kSize / 2);
             EXPECT_TRUE(sorted ? is_red(front) : is_blue(front)) << sorted; // blue was placed last
             EXPECT_TRUE(is_blue(back)) << sorted;
         }
@@ -101,24 +102,24 @@ TEST(SliceView, WeightsShowTheNearerYarnWithoutAnOrderAndOverManyChunks) {
 
 TEST(SliceView, IsWhiteBesideTheYarnsAndHasTheirWidth) {
     const opengl::Context context;
-    SliceRenderer view(context, cross_at(0.3f), {});
-    const RgbImage image = picture(view, kFront, look_of(true, true));
+    SliceRenderer renderer(context, cross_at(0.3f), {});
+    const RgbImage image = picture(renderer, kFront, look_of(true, true));
     EXPECT_EQ(pixel(image, 2, 2), (Rgb{255, 255, 255}));
     int covered = 0; // pixels of a column that only the red one crosses
     for (std::int32_t y = 0; y < kSize; ++y) {
         covered += pixel(image, kSize / 2 + 6, y)[2] < 200 ? 1 : 0;
     }
-    EXPECT_NEAR(covered, 0.2 * kSize / (2.0 * view.ball().radius), 2.0);
-    EXPECT_EQ(picture(view, kFront, look_of(true, true)).rgb, image.rgb);
+    EXPECT_NEAR(covered, 0.2 * kSize / (2.0 * renderer.ball().radius), 2.0);
+    EXPECT_EQ(picture(renderer, kFront, look_of(true, true)).rgb, image.rgb);
 }
 
 TEST(SliceView, AFarEyeSeesWhatParallelRaysSee) {
     const opengl::Context context;
-    SliceRenderer view(context, cross_at(0.3f), {});
+    SliceRenderer renderer(context, cross_at(0.3f), {});
     constexpr Vec3d kAside{1.0, 0.4, 0.5};
-    const RgbImage near = picture(view, kAside, look_of(true, true), 2.5);
-    const RgbImage far = picture(view, kAside, look_of(true, true), 0.002);
-    const RgbImage parallel = picture(view, kAside, look_of(true, true));
+    const RgbImage near = picture(renderer, kAside, look_of(true, true), 2.5);
+    const RgbImage far = picture(renderer, kAside, look_of(true, true), 0.002);
+    const RgbImage parallel = picture(renderer, kAside, look_of(true, true));
     const auto apart = [&](const RgbImage& a) {
         int count = 0;
         for (std::size_t i = 0; i < a.rgb.size(); ++i) {
@@ -132,38 +133,38 @@ TEST(SliceView, AFarEyeSeesWhatParallelRaysSee) {
 
 TEST(SliceView, TheEyeMayStandInAYarnOrPastIt) {
     const opengl::Context context;
-    SliceRenderer view(context, cross_at(0.3f), {});
+    SliceRenderer renderer(context, cross_at(0.3f), {});
     const RenderTarget target(kSize, kSize);
     for (const double z : {0.3, 0.35, 0.0}) {
         CameraParameters camera{
             .eye = {-0.4, 0.0, z}, .target = {1.0, 0.0, z}, .up = {0.0, 0.0, 1.0}};
         camera.view_angle = 1.0;
         target.clear();
-        EXPECT_NO_THROW(view.draw(target, camera, look_of(true, true)));
+        EXPECT_NO_THROW(renderer.draw(target, camera, look_of(true, true)));
         const RgbImage image = target.image();
         if (z == 0.3) {
             EXPECT_NE(pixel(image, 5, 5), (Rgb{255, 255, 255})) << "inside of the red one";
         }
     }
     target.clear(); // all is behind the eye
-    view.draw(target, {.eye = {0.0, 0.0, 5.0}, .target = {0.0, 0.0, 9.0}}, look_of(true, true));
+    renderer.draw(target, {.eye = {0.0, 0.0, 5.0}, .target = {0.0, 0.0, 9.0}}, look_of(true, true));
     for (const std::uint8_t c : target.image().rgb) ASSERT_EQ(c, 255);
 }
 
 TEST(SliceView, BandsMakeTheSamePictureAsOneDraw) {
     const opengl::Context context;
-    SliceRenderer view(context, cross_at(0.3f), {});
+    SliceRenderer renderer(context, cross_at(0.3f), {});
     SliceLook look = look_of(true, true);
     for (const bool weighted : {false, true}) {
         look.weighted = weighted;
-        const RgbImage whole = picture(view, kFront, look);
+        const RgbImage whole = picture(renderer, kFront, look);
         Orbit orbit{.from = kFront};
-        orbit.frame(view.ball(), 1.0);
+        orbit.frame(renderer.ball(), 1.0);
         const RenderTarget target(kSize, kSize);
         target.clear();
         for (std::int32_t y = 0; y < kSize; y += 24) {
             target.limit(y, y + 24);
-            view.draw(target, orbit.camera(), look);
+            renderer.draw(target, orbit.camera(), look);
         }
         target.limit(0, kSize);
         EXPECT_EQ(target.image().rgb, whole.rgb);
@@ -172,19 +173,19 @@ TEST(SliceView, BandsMakeTheSamePictureAsOneDraw) {
 
 TEST(SliceView, PlacedAgainItShowsTheNewYarns) {
     const opengl::Context context;
-    SliceRenderer view(context, cross_at(0.3f), {});
+    SliceRenderer renderer(context, cross_at(0.3f), {});
     SliceRenderer other(context, cross_at(-0.3f), {});
-    view.place(cross_at(-0.3f));
+    renderer.place(cross_at(-0.3f));
     const SliceLook look = look_of(true, true);
-    EXPECT_EQ(picture(view, kFront, look).rgb, picture(other, kFront, look).rgb);
+    EXPECT_EQ(picture(renderer, kFront, look).rgb, picture(other, kFront, look).rgb);
 }
 
 TEST(SliceView, ShadowsDarkenWhatLiesBehindAnotherYarnSeenFromTheLight) {
     const opengl::Context context;
-    SliceRenderer view(context, cross_at(0.3f), {});
+    SliceRenderer renderer(context, cross_at(0.3f), {});
     const Vec3d light{0.0, 1.0, 1.0};
-    const RgbImage a = picture(view, kFront, look_of(true, false, light));
-    const RgbImage b = picture(view, kFront, look_of(true, true, light));
+    const RgbImage a = picture(renderer, kFront, look_of(true, false, light));
+    const RgbImage b = picture(renderer, kFront, look_of(true, true, light));
     int darker = 0;
     int brighter = 0;
     for (std::size_t i = 0; i < a.rgb.size(); ++i) {
@@ -194,7 +195,7 @@ TEST(SliceView, ShadowsDarkenWhatLiesBehindAnotherYarnSeenFromTheLight) {
     EXPECT_GT(darker, 5);
     EXPECT_EQ(brighter, 0);
     // the light is above: the red yarn's shadow is on the blue one below the crossing
-    const double scale = kSize / (2.0 * view.ball().radius);
+    const double scale = kSize / (2.0 * renderer.ball().radius);
     const auto row = static_cast<std::int32_t>(kSize / 2.0 + 0.2 * scale);
     EXPECT_LT(pixel(b, kSize / 2, row)[2], pixel(a, kSize / 2, row)[2] - 8);
 }
@@ -209,11 +210,11 @@ TEST(SliceView, OcclusionDarkensASlicesInside) {
     geometry.yarns.push_back(make_slice(yarn, {.size = 64}).yarn);
     geometry.curves[0].yarn = 0;
     const opengl::Context context;
-    SliceRenderer view(context, geometry, {});
+    SliceRenderer renderer(context, geometry, {});
     SliceLook look = look_of(true, false);
-    const RgbImage with = picture(view, kFront, look);
+    const RgbImage with = picture(renderer, kFront, look);
     look.occlusion = false;
-    const RgbImage without = picture(view, kFront, look);
+    const RgbImage without = picture(renderer, kFront, look);
     double sums[2]{};
     for (std::size_t i = 0; i < with.rgb.size(); ++i) {
         sums[0] += with.rgb[i];
@@ -224,10 +225,10 @@ TEST(SliceView, OcclusionDarkensASlicesInside) {
 
 TEST(SliceView, DirectionsAreThoseOfTheYarnsInTheWorld) {
     const opengl::Context context;
-    SliceRenderer view(context, cross_at(0.3f), {});
+    SliceRenderer renderer(context, cross_at(0.3f), {});
     SliceLook look = look_of(true, false);
     look.color = SliceColor::Direction;
-    const RgbImage image = picture(view, {0.2, 0.1, 1.0}, look);
+    const RgbImage image = picture(renderer, {0.2, 0.1, 1.0}, look);
     const Rgb along_x = pixel(image, kSize / 2 + 8, kSize / 2 - 1);
     EXPECT_GT(along_x[0], 250);
     EXPECT_LT(along_x[1], 40);
@@ -236,7 +237,7 @@ TEST(SliceView, DirectionsAreThoseOfTheYarnsInTheWorld) {
 TEST(SliceView, GridShowsTheDirectionThatVoxelsStoreAndGreyWhereThereIsNone) {
     const opengl::Context context;
     const Geometry geometry = cross_at(0.3f);
-    SliceRenderer view(context, geometry, {});
+    SliceRenderer renderer(context, geometry, {});
     VoxelizeOptions options;
     options.voxel_size = {0.05, 0.05, 0.05};
     options.bounds = Bounds{{-2.0, -2.0, -2.0}, {0.0, 2.0, 2.0}}; // half of the red yarn
@@ -249,10 +250,10 @@ TEST(SliceView, GridShowsTheDirectionThatVoxelsStoreAndGreyWhereThereIsNone) {
     look.color = SliceColor::Grid;
     const auto draw = [&](const SliceLook& how) {
         Orbit orbit{.from = kFront};
-        orbit.frame(view.ball(), 1.0);
+        orbit.frame(renderer.ball(), 1.0);
         const RenderTarget target(kSize, kSize);
         target.clear();
-        view.draw(target, orbit.camera(), how, &voxels);
+        renderer.draw(target, orbit.camera(), how, &voxels);
         return target.image();
     };
     for (const bool weighted : {false, true}) {
@@ -267,7 +268,7 @@ TEST(SliceView, GridShowsTheDirectionThatVoxelsStoreAndGreyWhereThereIsNone) {
     }
     look.white_block = Vec3i{-1, 0, 0}; // of 1.6: x and y of the yarn's upper half
     EXPECT_EQ(pixel(draw(look), kSize / 2 - 8, kSize / 2 - 1), (Rgb{255, 255, 255}));
-    EXPECT_THROW((void)picture(view, kFront, look), Error) << "no voxels";
+    EXPECT_THROW((void)picture(renderer, kFront, look), Error) << "no voxels";
 }
 
 TEST(SliceView, WhatCannotBeShownIsOneLine) {
@@ -285,15 +286,15 @@ TEST(SliceView, WhatCannotBeShownIsOneLine) {
     EXPECT_EQ(code([&] { SliceRenderer(context, {}, {}); }), ErrorCode::Unsupported);
     EXPECT_EQ(code([] { RenderTarget(0, 5); }), ErrorCode::InvalidArgument);
     EXPECT_EQ(code([] { RenderTarget(9000, 5); }), ErrorCode::InvalidArgument);
-    SliceRenderer view(context, cross_at(0.3f), {});
+    SliceRenderer renderer(context, cross_at(0.3f), {});
     const auto draw = [&](Vec3d from, const SliceLook& look) {
-        return code([&] { (void)picture(view, from, look); });
+        return code([&] { (void)picture(renderer, from, look); });
     };
     EXPECT_EQ(draw({}, {}), ErrorCode::InvalidArgument);
     EXPECT_EQ(draw(kFront, {.light = {}}), ErrorCode::InvalidArgument);
     EXPECT_EQ(draw(kFront, {.opacity = 0.0}), ErrorCode::InvalidArgument);
     EXPECT_EQ(draw(kFront, {.map_size = 4}), ErrorCode::InvalidArgument);
-    EXPECT_NO_THROW((void)picture(view, {0.0, 1.0, 0.0}, {})); // along `up`
+    EXPECT_NO_THROW((void)picture(renderer, {0.0, 1.0, 0.0}, {})); // along `up`
 }
 
 TEST(SliceView, ATwistThatNoPixelShowsIsManySlicesNotAnError) {

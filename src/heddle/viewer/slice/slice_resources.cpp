@@ -2,7 +2,7 @@
 
 #include <heddle/base/error.h>
 #include <heddle/base/memory.h>
-#include <heddle/slice/slab_glsl.h>
+#include <heddle/slice/segment_glsl.h>
 #include <heddle/slice/slice_glsl.h>
 #include <heddle/viewer/eye_glsl.h>
 #include <heddle/viewer/slice/view_glsl.h>
@@ -26,12 +26,12 @@ using opengl::Program;
 constexpr std::uint32_t kNothing = 0xffffffff; ///< in a depth map: all is lit
 constexpr double kDepths = 16777215.0;         ///< number of depths that it distinguishes
 
-/// A program that draws slabs as quads, with a fragment shader of these parts.
-Program slab_program(const char* name, std::initializer_list<std::string_view> fragment) {
+/// A program that draws segments as quads, with a fragment shader of these parts.
+Program segment_program(const char* name, std::initializer_list<std::string_view> fragment) {
     const std::string shared =
         std::string(slice::kSliceGlsl) + std::string(slice::kSpanGlsl) + std::string(kEyeGlsl);
-    const std::string vertex = std::string(slice::kStretchGlsl) + std::string(kSeenQuadGlsl);
-    std::string body = std::string(slice::kSlabGlsl) + std::string(kOpacityGlsl);
+    const std::string vertex = std::string(slice::kSegmentGlsl) + std::string(kSeenQuadGlsl);
+    std::string body = std::string(slice::kSegmentRayGlsl) + std::string(kOpacityGlsl);
     for (const std::string_view part : fragment) body += part;
     return Program::draw(name, shared, vertex, body);
 }
@@ -60,16 +60,16 @@ double most_slices(const opengl::Context& context) {
 
 } // namespace
 
-SlabPrograms::SlabPrograms()
-    : nearest(slab_program("find what is nearest", {kDepthGlsl, kNearestGlsl})),
-      over(slab_program("shade slices", {kDepthGlsl, kNoGridGlsl, kShadeGlsl, kOverGlsl})),
-      weigh(slab_program("weigh slices", {kDepthGlsl, kNoGridGlsl, kShadeGlsl, kWeighGlsl})) {}
+SegmentPrograms::SegmentPrograms()
+    : nearest(segment_program("find what is nearest", {kDepthGlsl, kNearestGlsl})),
+      over(segment_program("shade slices", {kDepthGlsl, kNoGridGlsl, kShadeGlsl, kOverGlsl})),
+      weigh(segment_program("weigh slices", {kDepthGlsl, kNoGridGlsl, kShadeGlsl, kWeighGlsl})) {}
 
 GridPrograms::GridPrograms()
-    : over(slab_program("color slices",
-                        {kDepthGlsl, kVoxelTableGlsl, kGridGlsl, kShadeGlsl, kOverGlsl})),
-      weigh(slab_program("weigh colors",
-                         {kDepthGlsl, kVoxelTableGlsl, kGridGlsl, kShadeGlsl, kWeighGlsl})) {}
+    : over(segment_program("color slices",
+                           {kDepthGlsl, kVoxelTableGlsl, kGridGlsl, kShadeGlsl, kOverGlsl})),
+      weigh(segment_program("weigh colors",
+                            {kDepthGlsl, kVoxelTableGlsl, kGridGlsl, kShadeGlsl, kWeighGlsl})) {}
 
 void SliceResources::place(double asked_pixel) {
     const LatticeUnits next(
@@ -118,12 +118,12 @@ void SliceResources::draw_nearest(const ShaderCamera& eye,
     map.clear(kNothing);
     opengl::finish_writes();
     for (std::size_t c = 0; c < slices->chunk_count(); ++c) {
-        const std::uint32_t slabs = slices->see(c, eye, middle(), false);
+        const std::uint32_t segments = slices->see(c, eye, middle(), false);
         set_common(programs.nearest, eye, look);
         set_depths(programs.nearest, shift);
         map.bind_storage(4);
         frame.bind(eye.width, eye.height);
-        RenderTarget::draw_quads(slabs);
+        RenderTarget::draw_quads(segments);
     }
     opengl::finish_writes();
 }
@@ -188,7 +188,7 @@ void SliceResources::set_grid(const Program& program,
                               const SliceLook& look,
                               const VoxelRenderer& voxels) const {
     constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::min();
-    program.set("eye_place", to_float(eye.eye * units.unit));
+    program.set("eye_position", to_float(eye.eye * units.unit));
     program.set("unit", static_cast<float>(units.unit));
     program.set("block_edge", to_float(voxels.tables().block_size()));
     program.set("white_block", look.white_block.value_or(Vec3i{kNone, kNone, kNone}));
@@ -211,13 +211,13 @@ void SliceResources::draw_weighted(const RenderTarget& target,
     draw_nearest(eye, look, first, *front);
     blend->begin();
     for (std::size_t c = 0; c < slices->chunk_count(); ++c) {
-        const std::uint32_t slabs = slices->see(c, eye, middle(), false);
+        const std::uint32_t segments = slices->see(c, eye, middle(), false);
         set_common(program, eye, look);
         set_light(program, eye, look);
         program.set("eye_scale", static_cast<float>(kDepths * units.unit / (4.0 * ball.radius)));
         program.set("eye_shift", static_cast<float>(first));
         front->bind_storage(5);
-        RenderTarget::draw_quads(slabs);
+        RenderTarget::draw_quads(segments);
     }
     blend->resolve(target);
 }
@@ -226,11 +226,11 @@ void SliceResources::draw_sorted(const RenderTarget& target,
                                  const Program& program,
                                  const ShaderCamera& eye,
                                  const SliceLook& look,
-                                 std::uint32_t slabs) {
+                                 std::uint32_t segments) {
     target.begin();
     set_common(program, eye, look);
     set_light(program, eye, look);
-    RenderTarget::draw_quads(slabs);
+    RenderTarget::draw_quads(segments);
 }
 
 const Program& SliceResources::program_for(const SliceLook& look,

@@ -17,11 +17,11 @@
 
 namespace heddle::viewer {
 
-/// The programs that draw slabs as quads facing the eye.
-struct SlabPrograms {
-    SlabPrograms();
+/// The programs that draw segments as quads facing the eye.
+struct SegmentPrograms {
+    SegmentPrograms();
     opengl::Program nearest; ///< the depth at which half of the light is blocked
-    opengl::Program over;    ///< each slab over those behind it
+    opengl::Program over;    ///< each segment over those behind it
     opengl::Program weigh;   ///< for WeightedBlend
 };
 
@@ -44,7 +44,7 @@ struct SliceResources {
     SectionMipmaps sections;
     opengl::EmptyFramebuffer frame;
     std::optional<SortedSlices> slices;
-    SlabPrograms programs;
+    SegmentPrograms programs;
     std::optional<GridPrograms> grid_programs; ///< compiled when they are needed
 
     struct ShadowMap {
@@ -91,7 +91,7 @@ struct SliceResources {
                      const opengl::Program& program,
                      const ShaderCamera& eye,
                      const SliceLook& look,
-                     std::uint32_t slabs);
+                     std::uint32_t segments);
     void draw_weighted(const RenderTarget& target,
                        const opengl::Program& program,
                        const ShaderCamera& eye,

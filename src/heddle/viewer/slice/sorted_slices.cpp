@@ -47,12 +47,12 @@ SortedSlices::see(std::size_t chunk, const ShaderCamera& eye, Vec3d middle, bool
         program_.set("parallel", eye.parallel ? 1 : 0);
         program_.set("sorted", sorted ? 1 : 0);
         program_.dispatch(capacity_);
-        sort_.sort(); // even if not sorted: slabs come before other slices
+        sort_.sort(); // even if not sorted: segments come before other slices
         last_ = now;
     }
     seen_.bind_storage(0);
     sort_.values().bind_storage(2);
-    return chunks_[chunk].slabs;
+    return chunks_[chunk].segments;
 }
 
 } // namespace heddle::viewer

@@ -25,11 +25,11 @@ public:
     [[nodiscard]] std::size_t chunk_count() const { return chunks_.size(); }
     [[nodiscard]] std::int64_t slice_count() const;
 
-    /// Rotates a chunk's slices into the axes of an eye, numbers its slabs and optionally sorts
+    /// Rotates a chunk's slices into the axes of an eye, numbers its segments and optionally sorts
     /// them from the farthest to the nearest. Draws then find slices at storage binding 0 and
     /// numbers at binding 2. If the last call was the same, nothing is done.
     /// @param middle  units: a point near the visible objects
-    /// @return        number of slabs, which are the first of the numbers
+    /// @return        number of segments, which are the first of the numbers
     [[nodiscard]] std::uint32_t
     see(std::size_t chunk, const ShaderCamera& eye, Vec3d middle, bool sorted);
 

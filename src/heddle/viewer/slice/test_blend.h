@@ -60,7 +60,7 @@ struct SectionImage {
     }
 };
 
-struct Slab {
+struct Segment {
     slice::PlacedSlice a, b;
     Vec3d pa, pb, ta, tb, na, nb; ///< in the eye's axes
     double depth = 0.0;
@@ -94,16 +94,17 @@ public:
         width_ = width;
         height_ = height;
         rgba_.assign(static_cast<std::size_t>(4 * width * height), 0.0);
-        for (const Slab& slab : sorted(axes, camera.eye * (1.0 / unit_))) draw_slab(slab);
+        for (const Segment& segment : sorted(axes, camera.eye * (1.0 / unit_)))
+            draw_segment(segment);
         return rgba_;
     }
 
 private:
-    std::vector<Slab> sorted(const CameraAxes& axes, Vec3d eye) const {
-        std::vector<Slab> out;
+    std::vector<Segment> sorted(const CameraAxes& axes, Vec3d eye) const {
+        std::vector<Segment> out;
         for (std::size_t i = 0; i + 1 < placed_.size(); ++i) {
             if (placed_[i].flags != 0) continue;
-            Slab s{placed_[i], placed_[i + 1], {}, {}, {}, {}, {}, {}};
+            Segment s{placed_[i], placed_[i + 1], {}, {}, {}, {}, {}, {}};
             s.pa = axes.of(to_double(s.a.center) - eye);
             s.pb = axes.of(to_double(s.b.center) - eye);
             s.ta = axes.of(to_double(s.a.tangent));
@@ -115,11 +116,11 @@ private:
             out.push_back(s);
         }
         std::stable_sort(out.begin(), out.end(),
-                         [](const Slab& a, const Slab& b) { return a.depth > b.depth; });
+                         [](const Segment& a, const Segment& b) { return a.depth > b.depth; });
         return out;
     }
 
-    void draw_slab(const Slab& s) {
+    void draw_segment(const Segment& s) {
         const double reach =
             static_cast<double>(s.a.extent) * static_cast<double>(std::max(s.a.scale, s.b.scale));
         const Vec3d middle = (s.pa + s.pb) * 0.5;
@@ -149,7 +150,7 @@ private:
             hi = std::min(hi, t);
     }
 
-    void draw_pixel(const Slab& s, int i, int j, double far) {
+    void draw_pixel(const Segment& s, int i, int j, double far) {
         const double x = (i + 0.5 - 0.5 * width_) * pixel_;
         const double y = (j + 0.5 - 0.5 * height_) * pixel_;
         const Vec3d ray = parallel_ ? Vec3d{x, y, 0.0} : Vec3d{};
@@ -168,7 +169,7 @@ private:
         march(s, ray, way, lo, hi, &rgba_[static_cast<std::size_t>(4 * (j * width_ + i))]);
     }
 
-    void march(const Slab& s, Vec3d ray, Vec3d way, double lo, double hi, double* to) const {
+    void march(const Segment& s, Vec3d ray, Vec3d way, double lo, double hi, double* to) const {
         const SectionImage& image = images_[s.a.layer];
         const auto extent = static_cast<double>(s.a.extent);
         const double texel = 2.0 * extent * static_cast<double>(s.a.scale) / layers_.size;
@@ -186,11 +187,11 @@ private:
         Vec3d direction;
         for (int k = 0; k < steps && depth < 7.0; ++k) {
             const double t = lo + (k + 0.5) * dt;
-            const Vec3d place = ray + way * t;
-            const double before = dot(s.ta, place - s.pa);
-            const double rise = before - dot(s.tb, place - s.pb);
+            const Vec3d point = ray + way * t;
+            const double before = dot(s.ta, point - s.pa);
+            const double rise = before - dot(s.tb, point - s.pb);
             const double f = std::clamp(before / std::max(rise, 1e-6), 0.0, 1.0);
-            const Vec3d p = place - (s.pa * (1 - f) + s.pb * f) - bulge * (f * (1 - f));
+            const Vec3d p = point - (s.pa * (1 - f) + s.pb * f) - bulge * (f * (1 - f));
             const Vec3d lerped = s.na * (1 - f) + s.nb * f;
             const Vec3d normal = normalize(lerped - along * dot(lerped, along));
             const Vec3d binormal = cross(along, normal);
@@ -206,8 +207,8 @@ private:
             const double weight = (1.0 - std::exp(-hidden)) * std::exp(-depth);
             depth += hidden;
             for (int c = 0; c < 3; ++c) {
-                const double point = static_cast<double>(s.a.color >> (8 * c) & 0xff) / 255.0;
-                color[c] += weight * image.color(c, tu, tv, level) * point;
+                const double tint = static_cast<double>(s.a.color >> (8 * c) & 0xff) / 255.0;
+                color[c] += weight * image.color(c, tu, tv, level) * tint;
             }
             open += weight * image.lit(tu, tv);
             const double half = 2.0 * std::sin(0.5 * static_cast<double>(s.a.turn));

@@ -20,7 +20,7 @@ uniform int sorted;
 
 vec3 turned(vec3 v) { return vec3(dot(right, v), dot(up, v), dot(away, v)); }
 
-// Ascending keys go from the farthest to the nearest; slices that start no slab come last.
+// Ascending keys go from the farthest to the nearest; slices that start no segment come last.
 uint key_of(float depth) {
     uint bits = floatBitsToUint(depth);
     uint rising = (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
@@ -33,12 +33,12 @@ void main() {
     keys[item()] = 0xffffffffu;
     if (item() >= slice_count) return;
     Slice s = placed[item()];
-    bool slab = (s.flags & kLastOfYarn) == 0u && item() + 1u < slice_count;
+    bool segment = (s.flags & kLastOfYarn) == 0u && item() + 1u < slice_count;
     vec3 center = s.center;
-    if (slab) center = 0.5 * (s.center + placed[item() + 1u].center);
+    if (segment) center = 0.5 * (s.center + placed[item() + 1u].center);
     center = turned(center - middle) + shift;
     float depth = parallel == 1 ? center.z : length(center);
-    if (slab) keys[item()] = sorted == 0 ? 0u : key_of(depth);
+    if (segment) keys[item()] = sorted == 0 ? 0u : key_of(depth);
     s.center = turned(s.center - middle) + shift;
     s.tangent = turned(s.tangent);
     s.normal = turned(s.normal);
@@ -46,10 +46,10 @@ void main() {
 }
 )";
 
-/// GLSL, vertex: a quad over a slab, perpendicular to the ray to its middle. Needs kStretchGlsl.
+/// GLSL, vertex: a quad over a segment, perpendicular to the ray to its middle. Needs kSegmentGlsl.
 inline constexpr std::string_view kSeenQuadGlsl = R"(
 void main() {
-    Slab s = current_slab();
+    Segment s = current_segment();
     vec3 middle = 0.5 * (s.a.center + s.b.center);
     float away = length(middle);
     vec3 toward = parallel == 1 || away == 0.0 ? vec3(0.0, 0.0, 1.0) : middle / away;
@@ -78,7 +78,7 @@ void main() {
 }
 )";
 
-/// GLSL, fragment: the opacity of a slab in a pixel. Needs kSlabGlsl and kEyeGlsl.
+/// GLSL, fragment: the opacity of a segment in a pixel. Needs kSegmentRayGlsl and kEyeGlsl.
 inline constexpr std::string_view kOpacityGlsl = R"(
 layout(binding = 2) uniform sampler2DArray section_light;
 uniform float section_size; // texels
@@ -87,16 +87,16 @@ uniform float opacity;      // multiplies the opacity of texels
 // The part of the pixel's ray between the two slices, in front of the eye.
 vec2 start_pixel() {
     start(ray_from(gl_FragCoord.xy), ray_way(gl_FragCoord.xy));
-    vec2 range = range_of_slab();
+    vec2 range = range_of_segment();
     return parallel == 1 ? range : max(range, vec2(0.0));
 }
 
-// Steps through the slab with texels that are as large as a pixel or larger; a step is as opaque as
-// its texel.
+// Steps through the segment with texels that are as large as a pixel or larger; a step is as opaque
+// as its texel.
 struct Steps { int count; float dt; float level; float strength; };
 
 Steps steps_through(vec2 range) {
-    float texel = 2.0 * sizes.x * place_a.w / section_size; // units
+    float texel = 2.0 * sizes.x * center_a.w / section_size; // units
     float level = max(0.0, log2(pixel_width(0.5 * (range.x + range.y)) / max(texel, 1e-12)));
     float size = texel * exp2(level);
     int count = clamp(int(ceil((range.y - range.x) / size)), 1, 48);
@@ -123,12 +123,12 @@ Look look_through(vec2 range) {
         float t = range.x + (float(i) + 0.5) * steps.dt;
         Local l = local_at(t);
         if (max(abs(l.at.x), abs(l.at.y)) > sizes.x) continue;
-        vec4 here = textureLod(section_color, layer_place(l.at), steps.level);
+        vec4 here = textureLod(section_color, layer_point(l.at), steps.level);
         float hidden = hidden_by(here.a, steps);
         float weight = (1.0 - exp(-hidden)) * exp(-sum.depth);
         sum.depth += hidden;
         sum.color += weight * here.rgb * unpackUnorm4x8(uint(normal_b.w)).rgb;
-        sum.light += weight * textureLod(section_light, layer_place(l.at), steps.level).r;
+        sum.light += weight * textureLod(section_light, layer_point(l.at), steps.level).r;
         sum.direction += weight * smooth_direction(l);
         sum.t += weight * t;
     }
@@ -145,7 +145,7 @@ float half_hidden(vec2 range) {
         t = range.x + (float(i) + 0.5) * steps.dt;
         Local l = local_at(t);
         if (max(abs(l.at.x), abs(l.at.y)) > sizes.x) continue;
-        depth += hidden_by(textureLod(section_color, layer_place(l.at), steps.level).a, steps);
+        depth += hidden_by(textureLod(section_color, layer_point(l.at), steps.level).a, steps);
         if (depth >= 0.69) return t;
     }
     return range.y;
@@ -160,7 +160,7 @@ uniform float depth_shift;
 uint depth_bits(float t) { return uint(clamp((t - depth_shift) * depth_scale, 0.0, 16777215.0)); }
 )";
 
-/// GLSL, fragment: the depth at which a slab has blocked half of the light.
+/// GLSL, fragment: the depth at which a segment has blocked half of the light.
 inline constexpr std::string_view kNearestGlsl = R"(
 layout(std430, binding = 4) buffer Nearest { uint nearest_bits[]; };
 
@@ -179,25 +179,25 @@ inline constexpr std::string_view kNoGridGlsl = R"(
 vec3 grid_color(vec3 from_eye) { return vec3(0.0); }
 )";
 
-/// GLSL, fragment: the direction that voxels store at a slab; one block is white, missing voxels
+/// GLSL, fragment: the direction that voxels store at a segment; one block is white, missing voxels
 /// are grey. Needs kVoxelTableGlsl.
 ///   [LopezMoreno17, fig. 14]
 inline constexpr std::string_view kGridGlsl = R"(
-uniform vec3 eye_place; // scene units
+uniform vec3 eye_position; // scene units
 uniform float unit;     // scene units
 uniform vec3 block_edge; // scene units
 uniform ivec3 white_block;
 
 vec3 grid_color(vec3 from_eye) {
-    vec3 place = eye_place + unit * from_eye;
-    if (ivec3(floor(place / block_edge)) == white_block) return vec3(1.0);
+    vec3 point = eye_position + unit * from_eye;
+    if (ivec3(floor(point / block_edge)) == white_block) return vec3(1.0);
     vec3 axis;
     float density;
-    return voxel_at(place, 0, axis, density) ? axis * axis : vec3(0.35);
+    return voxel_at(point, 0, axis, density) ? axis * axis : vec3(0.35);
 }
 )";
 
-/// GLSL, fragment: the colour of a slab: Kajiya and Kay's model of a thread under one distant
+/// GLSL, fragment: the colour of a segment: Kajiya and Kay's model of a thread under one distant
 /// light, the shadow map, and the occlusion of the section.                    [LopezMoreno17, 4.2]
 inline constexpr std::string_view kShadeGlsl = R"(
 layout(std430, binding = 4) readonly buffer Shadow { uint shadow[]; };
@@ -247,7 +247,7 @@ vec3 shade(Look look) {
 }
 )";
 
-/// GLSL, fragment: blends a slab over those behind it.
+/// GLSL, fragment: blends a segment over those behind it.
 inline constexpr std::string_view kOverGlsl = R"(
 layout(location = 0) out vec4 result; // linear, times alpha
 
@@ -261,7 +261,8 @@ void main() {
 }
 )";
 
-/// GLSL, fragment, for WeightedBlend: a slab behind the nearest half-opaque one gets a low weight.
+/// GLSL, fragment, for WeightedBlend: a segment behind the nearest half-opaque one gets a low
+/// weight.
 inline constexpr std::string_view kWeighGlsl = R"(
 layout(std430, binding = 5) readonly buffer Nearest { uint nearest_bits[]; };
 layout(location = 0) out vec4 sums;

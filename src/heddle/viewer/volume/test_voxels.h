@@ -69,28 +69,28 @@ inline std::unique_ptr<VoxelLevel> blades() {
     return heddle::test::voxelize_now(grass, options);
 }
 
-inline RgbImage picture(const VoxelRenderer& view,
+inline RgbImage picture(const VoxelRenderer& renderer,
                         const CameraParameters& camera,
                         const VoxelLook& look,
                         std::int32_t size = kSize) {
     const RenderTarget target(size, size);
     target.clear();
-    view.draw(target, camera, look);
+    renderer.draw(target, camera, look);
     return target.image();
 }
 
 inline std::vector<float>
-floats(const VoxelRenderer& view, const CameraParameters& camera, const VoxelLook& look) {
+floats(const VoxelRenderer& renderer, const CameraParameters& camera, const VoxelLook& look) {
     const RenderTarget target(kSize, kSize);
     target.clear();
-    view.draw(target, camera, look);
+    renderer.draw(target, camera, look);
     return target.read();
 }
 
 inline CameraParameters
-around(const VoxelRenderer& view, Vec3d from, double angle, double zoom = 1.0) {
+around(const VoxelRenderer& renderer, Vec3d from, double angle, double zoom = 1.0) {
     Orbit orbit{.from = from, .view_angle = angle};
-    orbit.frame(view.ball(), 1.0);
+    orbit.frame(renderer.ball(), 1.0);
     orbit.zoom(zoom);
     return orbit.camera();
 }

@@ -11,14 +11,14 @@ uniform vec3 to_light; // unit
 
 const int kSteps = 8;  // in each of three levels: 112 voxels of the lit level
 
-// @param place  from voxel_middle
-float lit_at(vec3 place, int level) {
+// @param point  from voxel_middle
+float lit_at(vec3 point, int level) {
     float depth = 0.0;
     float far = 1.5 * voxel_levels[min(level + 1, voxel_range.y)].per.w; // past the lit voxel
     for (int i = 0; i < 3 * kSteps && depth < 4.0; ++i) {
         int l = min(level + 1 + i / kSteps, voxel_range.y);
         float step = voxel_levels[l].per.w;
-        int number = voxel_at_offset(place + (far + 0.5 * step) * to_light, l);
+        int number = voxel_at_offset(point + (far + 0.5 * step) * to_light, l);
         if (number >= 0) {
             vec3 k = voxel_depth(voxel_depths[number]) * density_scale;
             depth += length(k * to_light * voxel_levels[l].per.xyz) * step;

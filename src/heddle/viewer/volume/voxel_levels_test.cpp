@@ -17,26 +17,26 @@ TEST(VoxelLevels, FarAwayACoarserLevelIsTakenAndLooksAlike) {
     const opengl::Context context;
     Progress progress;
     const VoxelLevels levels = knit(5);
-    const VoxelRenderer view(context, sources_of(levels), {}, progress);
+    const VoxelRenderer renderer(context, sources_of(levels), {}, progress);
     VoxelLook fine = at_eye();
     VoxelLook by_pixel = at_eye();
     by_pixel.level = -1;
     for (const double angle : {0.0, 0.6}) {
         for (const int level : {0, 1, 2, 3}) {
             // a pixel is slightly narrower than the level's voxels
-            CameraParameters camera = around(view, {0.2, 0.1, 1.0}, angle);
+            CameraParameters camera = around(renderer, {0.2, 0.1, 1.0}, angle);
             const double pixel = 0.93 * 0.05 * std::ldexp(1.0, level);
             camera.view_height = pixel * kSize;
             const double distance = 0.5 * pixel * kSize / std::tan(0.3);
             camera.eye = camera.target + normalize(camera.eye - camera.target) * distance;
             VoxelLook only = at_eye();
             only.level = level;
-            const std::vector<float> shown = floats(view, camera, by_pixel);
+            const std::vector<float> shown = floats(renderer, camera, by_pixel);
             if (angle == 0.0) {
-                EXPECT_EQ(shown, floats(view, camera, only)) << level;
+                EXPECT_EQ(shown, floats(renderer, camera, only)) << level;
             }
             const std::array<double, 2> coarse = sums(shown);
-            const std::array<double, 2> truth = sums(floats(view, camera, fine));
+            const std::array<double, 2> truth = sums(floats(renderer, camera, fine));
             const double brightness = coarse[0] / coarse[1], finest = truth[0] / truth[1];
             EXPECT_NEAR(brightness / finest, 1.0, 0.07) << level << ' ' << angle;
             EXPECT_NEAR(coarse[1] / truth[1], 1.0, 0.14) << level << ' ' << angle;
@@ -47,9 +47,9 @@ TEST(VoxelLevels, FarAwayACoarserLevelIsTakenAndLooksAlike) {
     offset.level_offset = 2.0;
     VoxelLook two = at_eye();
     two.level = 2;
-    CameraParameters camera = around(view, {0.2, 0.1, 1.0}, 0.0);
+    CameraParameters camera = around(renderer, {0.2, 0.1, 1.0}, 0.0);
     camera.view_height = 0.9 * 0.05 * kSize;
-    EXPECT_EQ(floats(view, camera, offset), floats(view, camera, two));
+    EXPECT_EQ(floats(renderer, camera, offset), floats(renderer, camera, two));
 }
 
 TEST(VoxelLevels, LevelsChangeAlongARayWithItsWidth) {
@@ -60,17 +60,17 @@ TEST(VoxelLevels, LevelsChangeAlongARayWithItsWidth) {
     const MemoryLevel fine = make_voxels(box({0, 0, 0}, {8, 8, 64}), -std::expm1(-depth));
     MemoryLevel coarse = make_voxels(box({0, 0, 0}, {4, 4, 32}), -std::expm1(-2.0 * depth));
     coarse.info().lattice = lattice_of_level(fine.info().lattice, 1);
-    const VoxelRenderer view(context, Sources{&fine, &coarse}, {}, progress);
+    const VoxelRenderer renderer(context, Sources{&fine, &coarse}, {}, progress);
     VoxelLook look = at_eye(VoxelColor::Level);
     look.level = -1;
     // the eye looks along z; a pixel is 1 wide at z = 32
     CameraParameters camera{.eye = {4.1, 4.1, -32.0}, .target = {4.1, 4.1, 0.0}};
     camera.view_angle = 2.0 * std::atan(0.5 * kSize / 64.0);
-    const std::vector<float> both = floats(view, camera, look);
+    const std::vector<float> both = floats(renderer, camera, look);
     const std::size_t middle = 4 * (kSize / 2 * kSize + kSize / 2);
     const auto only = [&](int level) {
         look.level = level;
-        const std::vector<float> seen = floats(view, camera, look);
+        const std::vector<float> seen = floats(renderer, camera, look);
         return std::array<double, 2>{static_cast<double>(seen[middle] / seen[middle + 3]),
                                      static_cast<double>(seen[middle + 3])};
     };
@@ -116,7 +116,7 @@ TEST(VoxelLevels, VoxelAtGivesOtherShadersWhatTheGridHolds) {
     Progress progress;
     MemoryLevel grid = make_voxels({{-5, 3, 200}}, 0.5, {0.6f, 0.0f, 0.8f});
     grid.info().lattice.voxel_size = {0.5, 1.0, 0.25};
-    const VoxelRenderer view(context, Sources{&grid}, {}, progress);
+    const VoxelRenderer renderer(context, Sources{&grid}, {}, progress);
     constexpr std::string_view kAsk = R"(
 layout(std430, binding = 0) readonly buffer Places { vec4 places[]; };
 layout(std430, binding = 1) writeonly buffer Found { vec4 found[]; };
@@ -138,7 +138,7 @@ void main() {
     const opengl::Program ask = opengl::Program::compute("ask", kVoxelTableGlsl, kAsk);
     from.bind_storage(0);
     to.bind_storage(1);
-    view.bind_tables();
+    renderer.bind_tables();
     ask.dispatch(places.size());
     std::vector<Four> found(places.size());
     to.read(std::as_writable_bytes(std::span(found)));

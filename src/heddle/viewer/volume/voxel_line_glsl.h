@@ -23,13 +23,13 @@ void main() {
     vec3 along = vec3(equal(ivec3(0, 1, 2), ivec3(int(edge.w)))) * block_size;
     vec3 a = seen(edge.xyz - start);
     vec3 b = seen(edge.xyz + along - start);
-    float least = 1e-3 * length(along); // in front of the eye
-    if (parallel == 0 && max(a.z, b.z) <= least) {
+    float min_distance = 1e-3 * length(along); // in front of the eye
+    if (parallel == 0 && max(a.z, b.z) <= min_distance) {
         gl_Position = vec4(2.0, 2.0, 0.0, 1.0);
         return;
     }
-    if (parallel == 0 && a.z < least) a = mix(a, b, (least - a.z) / (b.z - a.z));
-    if (parallel == 0 && b.z < least) b = mix(b, a, (least - b.z) / (a.z - b.z));
+    if (parallel == 0 && a.z < min_distance) a = mix(a, b, (min_distance - a.z) / (b.z - a.z));
+    if (parallel == 0 && b.z < min_distance) b = mix(b, a, (min_distance - b.z) / (a.z - b.z));
     vec2 p = pixel_of(a);
     vec2 q = pixel_of(b);
     vec2 line = q - p;
@@ -54,7 +54,7 @@ void meet(int number, int level, ivec3 at, float hidden, float t) {}
 void leave_clump(int level) {}
 
 // The distance along its ray at which a pixel is closest to the edge.
-float place_on_ray() {
+float distance_on_ray() {
     vec3 u = vec3(equal(ivec3(0, 1, 2), ivec3(int(edge.w))));
     vec3 apart = ray.from - edge.xyz;
     float b = dot(ray.way, u);
@@ -68,7 +68,7 @@ void main() {
     float cover = clamp(1.0 - length(apart - along * line), 0.0, 1.0);
     if (!(cover > 0.0)) discard;
     ray = voxel_ray(gl_FragCoord.xy);
-    walk_ray(place_on_ray());
+    walk_ray(distance_on_ray());
     float alpha = cover * mix(kDim, 1.0, through);
     result = vec4(kColor * alpha, alpha);
 }

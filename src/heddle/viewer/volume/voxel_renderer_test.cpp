@@ -50,13 +50,13 @@ std::array<double, 2> off_preview(const VoxelLevel& source, PreviewColor color, 
                                              .field_of_view = angle},
                                             progress);
     const opengl::Context context;
-    const VoxelRenderer view(context, Sources{&source}, {}, progress);
+    const VoxelRenderer renderer(context, Sources{&source}, {}, progress);
     const std::map<PreviewColor, VoxelColor> same{{PreviewColor::Albedo, VoxelColor::Shaded},
                                                   {PreviewColor::Tangent, VoxelColor::Tangent},
                                                   {PreviewColor::Width, VoxelColor::Width},
                                                   {PreviewColor::Material, VoxelColor::Material}};
     const RgbImage image =
-        picture(view, preview_camera(source, kFrom, angle), at_eye(same.at(color)));
+        picture(renderer, preview_camera(source, kFrom, angle), at_eye(same.at(color)));
     double off = 0.0;
     double covered = 0.0;
     for (std::size_t p = 0; p < static_cast<std::size_t>(kSize) * kSize; ++p) {
@@ -102,8 +102,9 @@ TEST(VoxelView, OneVoxelHidesItsCoverageAndAnEmptyVolumeNothing) {
     const opengl::Context context;
     Progress progress;
     const MemoryLevel one = make_voxels({{-3, 70, 5}}, 0.5);
-    const VoxelRenderer view(context, Sources{&one}, {}, progress);
-    const std::vector<float> seen = floats(view, around(view, {0.0, 0.0, 1.0}, 0.0), at_eye());
+    const VoxelRenderer renderer(context, Sources{&one}, {}, progress);
+    const std::vector<float> seen =
+        floats(renderer, around(renderer, {0.0, 0.0, 1.0}, 0.0), at_eye());
     const std::size_t middle = 4 * (kSize / 2 * kSize + kSize / 2);
     EXPECT_NEAR(seen[middle + 3], 0.5, 0.01);
     EXPECT_EQ(seen[3], 0.0f);
@@ -126,10 +127,10 @@ TEST(VoxelView, TheEyeMayBeInsideAndSeesNothingBehindIt) {
     std::vector<Vec3i> at = box({0, 0, 0}, {16, 16, 1}); // two walls
     for (const Vec3i i : box({0, 0, 40}, {16, 16, 1})) at.push_back(i);
     const MemoryLevel grid = make_voxels(at, 0.5);
-    const VoxelRenderer view(context, Sources{&grid}, {}, progress);
+    const VoxelRenderer renderer(context, Sources{&grid}, {}, progress);
     const auto alpha = [&](const CameraParameters& camera) {
         return static_cast<double>(
-            floats(view, camera, at_eye())[4 * (kSize / 2 * kSize + kSize / 2) + 3]);
+            floats(renderer, camera, at_eye())[4 * (kSize / 2 * kSize + kSize / 2) + 3]);
     };
     CameraParameters camera{.eye = {8.01, 8.02, 20.0}, .target = {8.01, 8.02, 0.0}};
     EXPECT_NEAR(alpha(camera), 0.5, 0.01);
@@ -146,11 +147,11 @@ TEST(VoxelView, AFarEyeSeesWhatParallelRaysSee) {
     const opengl::Context context;
     Progress progress;
     const VoxelLevels levels = knit(1);
-    const VoxelRenderer view(context, sources_of(levels), {}, progress);
+    const VoxelRenderer renderer(context, sources_of(levels), {}, progress);
     constexpr Vec3d kAside{1.0, 0.4, 0.5};
-    const RgbImage parallel = picture(view, around(view, kAside, 0.0), at_eye());
+    const RgbImage parallel = picture(renderer, around(renderer, kAside, 0.0), at_eye());
     const auto apart = [&](double angle) {
-        const RgbImage image = picture(view, around(view, kAside, angle), at_eye());
+        const RgbImage image = picture(renderer, around(renderer, kAside, angle), at_eye());
         double count = 0.0;
         for (std::size_t i = 0; i < image.rgb.size(); ++i) {
             count += std::abs(image.rgb[i] - parallel.rgb[i]) > 6 ? 1.0 : 0.0;
@@ -171,8 +172,8 @@ TEST(VoxelView, FarFromTheOriginVoxelsLookTheSame) {
         std::vector<Vec3i> moved = at;
         for (Vec3i& i : moved) i = i + by;
         const MemoryLevel grid = make_voxels(moved, 0.7);
-        const VoxelRenderer view(context, Sources{&grid}, {}, progress);
-        return picture(view, around(view, {0.3, -0.5, 1.0}, 0.6), at_eye()).rgb;
+        const VoxelRenderer renderer(context, Sources{&grid}, {}, progress);
+        return picture(renderer, around(renderer, {0.3, -0.5, 1.0}, 0.6), at_eye()).rgb;
     };
     const std::vector<std::uint8_t> here = draw({}), there = draw(away);
     int off = 0;
@@ -189,18 +190,18 @@ TEST(VoxelView, BandsMakeTheSamePictureAsOneDraw) {
     const opengl::Context context;
     Progress progress;
     const VoxelLevels levels = knit(2);
-    const VoxelRenderer view(context, sources_of(levels), {}, progress);
-    const CameraParameters camera = around(view, {0.2, 0.1, 1.0}, 0.6);
+    const VoxelRenderer renderer(context, sources_of(levels), {}, progress);
+    const CameraParameters camera = around(renderer, {0.2, 0.1, 1.0}, 0.6);
     VoxelLook look;
     look.blocks = true;
     const RenderTarget target(kSize, kSize);
     target.clear();
     for (std::int32_t y = 0; y < kSize; y += 24) {
         target.limit(y, std::min(y + 24, kSize));
-        view.draw(target, camera, look);
+        renderer.draw(target, camera, look);
     }
     target.limit(0, kSize);
-    EXPECT_EQ(target.image().rgb, picture(view, camera, look).rgb);
+    EXPECT_EQ(target.image().rgb, picture(renderer, camera, look).rgb);
 }
 
 TEST(VoxelView, WhatCannotBeShownIsOneLine) {
@@ -216,15 +217,15 @@ TEST(VoxelView, WhatCannotBeShownIsOneLine) {
         return ErrorCode::Internal;
     };
     const auto make = [&](const Sources& levels) {
-        return code([&] { const VoxelRenderer view(context, levels, {}, progress); });
+        return code([&] { const VoxelRenderer renderer(context, levels, {}, progress); });
     };
     EXPECT_EQ(make({&grid, &grid}), ErrorCode::InvalidArgument);
     MemoryLevel odd = make_voxels({{0, 0, 0}}, 0.5);
     odd.info().lattice.voxel_size = {2.0, 2.0, 3.0};
     EXPECT_EQ(make({&grid, &odd}), ErrorCode::InvalidArgument);
-    const VoxelRenderer view(context, Sources{&grid}, {}, progress);
+    const VoxelRenderer renderer(context, Sources{&grid}, {}, progress);
     const auto draw = [&](const CameraParameters& camera, const VoxelLook& look) {
-        return code([&] { (void)picture(view, camera, look); });
+        return code([&] { (void)picture(renderer, camera, look); });
     };
     EXPECT_EQ(draw({.eye = {}, .target = {}}, {}), ErrorCode::InvalidArgument);
     EXPECT_EQ(draw({}, {.light = Vec3d{}}), ErrorCode::InvalidArgument);
@@ -232,7 +233,7 @@ TEST(VoxelView, WhatCannotBeShownIsOneLine) {
     EXPECT_EQ(draw({}, {.level = -2}), ErrorCode::InvalidArgument);
     EXPECT_EQ(draw({}, {.level_offset = std::nan("")}), ErrorCode::InvalidArgument);
     const RenderTarget target(8, 8);
-    EXPECT_EQ(code([&] { view.draw_blocks(target, {}, {.density_scale = -1.0}); }),
+    EXPECT_EQ(code([&] { renderer.draw_blocks(target, {}, {.density_scale = -1.0}); }),
               ErrorCode::InvalidArgument);
     progress.cancel();
     EXPECT_EQ(make({&grid}), ErrorCode::Cancelled);

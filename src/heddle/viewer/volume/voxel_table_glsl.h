@@ -12,7 +12,7 @@ namespace heddle::viewer {
 /// 8 to 13, uniform block 8. Levels are numbered as in the input of VoxelTables; the finest that is
 /// stored is voxel_range.x, the coarsest voxel_range.y.
 ///
-/// `bool voxel_at(vec3 place, int level, out vec3 axis, out float density)`: whether there is a
+/// `bool voxel_at(vec3 point, int level, out vec3 axis, out float density)`: whether there is a
 /// voxel at a point in scene units. `axis` is the direction of its heaviest lobe (a fiber's tangent
 /// or a surface's normal; unit, with arbitrary sign), `density` the mean of its coverage over the
 /// three axes, in [0, 127/128]. For a level that is not stored, the nearest one is used.
@@ -55,8 +55,8 @@ int voxel_cell(int level, ivec3 cell) {
 int voxel_leaf(int cell, ivec3 leaf) {
     const int bits = kVoxelCellShift - 3;
     ivec3 i = leaf & ((1 << bits) - 1);
-    int place = (((cell << bits | i.x) << bits | i.y) << bits) | i.z;
-    return (int(voxel_leaf_table[place]) - 1) * kVoxelLeafWords;
+    int slot = (((cell << bits | i.x) << bits | i.y) << bits) | i.z;
+    return (int(voxel_leaf_table[slot]) - 1) * kVoxelLeafWords;
 }
 
 // Index of voxel `at` of a leaf; -1: empty.
@@ -88,11 +88,11 @@ vec3 voxel_axis(uint colors, uint axes) {
 
 float voxel_density(vec3 depth) { return dot(vec3(1.0) - exp(-depth), vec3(1.0 / 3.0)); }
 
-bool voxel_at(vec3 place, int level, out vec3 axis, out float density) {
+bool voxel_at(vec3 point, int level, out vec3 axis, out float density) {
     axis = vec3(0.0);
     density = 0.0;
     int there = clamp(level, voxel_range.x, voxel_range.y);
-    int number = voxel_at_offset(place - voxel_middle.xyz, there);
+    int number = voxel_at_offset(point - voxel_middle.xyz, there);
     if (number < 0) return false;
     axis = voxel_axis(voxel_colors[number], voxel_axes[number]);
     density = voxel_density(voxel_depth(voxel_depths[number]));

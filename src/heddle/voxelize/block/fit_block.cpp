@@ -104,7 +104,7 @@ HEDDLE_INLINE std::int64_t append_voxel(BlockFit& fit, const VoxelSums& voxel) {
         }
     }
     if (options.fields.occupancy) {
-        fit.out.occupancy.push_back(cells_of_subvoxels(voxel.sub.data(), n));
+        fit.out.occupancy.push_back(cells_of_voxel(voxel.sub.data(), column.data(), n));
     }
     const std::uint32_t order = pool_lobes(fit, voxel);
     append_lobes(fit.pool, order, options.fields, fit.fits, fit.out);

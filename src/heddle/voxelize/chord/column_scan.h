@@ -145,7 +145,7 @@ HEDDLE_INLINE std::uint64_t scan_columns(const Cylinder& k,
     const ColumnRange ra = range[a];
     const ColumnRange rb = range[b];
     if (ra.first > ra.last || rb.first > rb.last) return 0;
-    const ColumnProjection view(k, u, a, b, c);
+    const ColumnProjection projection(k, u, a, b, c);
     const int last_base = u.n > 4 ? u.n - 4 : 0;
     std::uint64_t mask = 0;
     for (int b0 = rb.first; b0 <= rb.last; b0 += 4) {
@@ -153,9 +153,9 @@ HEDDLE_INLINE std::uint64_t scan_columns(const Cylinder& k,
         for (int a0 = ra.first; a0 <= ra.last; a0 += 4) {
             const int aa = a0 < last_base ? a0 : last_base;
             PatchDepths depths;
-            const std::uint32_t hits = scan_patch(view, aa, bb, kDepths ? &depths : nullptr);
+            const std::uint32_t hits = scan_patch(projection, aa, bb, kDepths ? &depths : nullptr);
             mask |= place_patch(hits, aa, bb, u.n);
-            if (kDepths && hits != 0) on_hit(view, aa, bb, hits, depths);
+            if (kDepths && hits != 0) on_hit(projection, aa, bb, hits, depths);
         }
     }
     return mask;

@@ -1,4 +1,4 @@
-#include <heddle/job/output_place.h>
+#include <heddle/job/write_output.h>
 
 #include <heddle/base/error.h>
 #include <heddle/io/file/input_file.h>
@@ -15,7 +15,7 @@ void check_output(const std::string& path, const std::string& suffix, const std:
     // OutputFile can write to a device, but a .vdb needs seeks, so devices are refused here
     if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
         throw Error(ErrorCode::CannotWrite, "this is a folder or a device, not a file",
-                    "write to another path", {.path = path});
+                    "name a file", {.path = path});
     }
     if (suffix_of(path) != suffix) {
         throw OptionError(str("`", option, "`: '", path, "' must end in ", suffix));

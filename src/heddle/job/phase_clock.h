@@ -11,15 +11,15 @@
 namespace heddle::job {
 
 /// Name and seconds of each phase of a job, in order; phases of the same name are added up.
-using StageTimes = std::vector<std::pair<std::string, double>>;
+using PhaseTimes = std::vector<std::pair<std::string, double>>;
 
 /// Forwards all calls to another Progress and measures how long each phase takes.
-class StageClock final : public Progress {
+class PhaseClock final : public Progress {
 public:
     /// @param outer  must outlive this object
-    explicit StageClock(Progress& outer);
+    explicit PhaseClock(Progress& outer);
 
-    void begin(std::string_view stage, std::string_view unit, std::int64_t total) override;
+    void begin(std::string_view phase, std::string_view unit, std::int64_t total) override;
     void advance(std::int64_t units) override { outer_.advance(units); }
     void begin_part(std::string_view name) override { outer_.begin_part(name); }
     void note(std::string_view sentence) override { outer_.note(sentence); }
@@ -27,7 +27,7 @@ public:
     /// Ends the running phase.
     void finish();
     /// Returns the phases that have ended.
-    [[nodiscard]] const StageTimes& stages() const { return stages_; }
+    [[nodiscard]] const PhaseTimes& phases() const { return phases_; }
     /// Returns the seconds since construction.
     [[nodiscard]] double seconds() const;
 
@@ -37,8 +37,8 @@ private:
     Progress& outer_;
     Clock::time_point made_;
     Clock::time_point begun_; ///< start of the running phase
-    std::string stage_;       ///< name of the running phase; empty: none
-    StageTimes stages_;
+    std::string phase_;       ///< name of the running phase; empty: none
+    PhaseTimes phases_;
 };
 
 /// Appends sentences to the notes of a report, and reports each to `progress` at once.

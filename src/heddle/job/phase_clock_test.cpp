@@ -1,4 +1,4 @@
-#include <heddle/job/stage_clock.h>
+#include <heddle/job/phase_clock.h>
 
 #include <heddle/job/test_job.h>
 
@@ -9,25 +9,25 @@
 namespace heddle::job {
 namespace {
 
-TEST(StageClock, KeepsTheTimeOfEachStageInOrderAndAddsUpRepeatedOnes) {
+TEST(PhaseClock, KeepsTheTimeOfEachPhaseInOrderAndAddsUpRepeatedOnes) {
     Progress silent;
-    StageClock clock(silent);
-    for (const char* stage : {"bin", "gather", "bin"}) {
-        clock.begin(stage, "steps", 10);
+    PhaseClock clock(silent);
+    for (const char* phase : {"bin", "gather", "bin"}) {
+        clock.begin(phase, "steps", 10);
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
         clock.advance(10);
     }
     clock.finish();
-    ASSERT_EQ(clock.stages().size(), 2u);
-    EXPECT_EQ(clock.stages()[0].first, "bin");
-    EXPECT_GE(clock.stages()[0].second, 0.004);
-    EXPECT_EQ(clock.stages()[1].first, "gather");
+    ASSERT_EQ(clock.phases().size(), 2u);
+    EXPECT_EQ(clock.phases()[0].first, "bin");
+    EXPECT_GE(clock.phases()[0].second, 0.004);
+    EXPECT_EQ(clock.phases()[1].first, "gather");
     EXPECT_GE(clock.seconds(), 0.006);
 }
 
-TEST(StageClock, PassesEverythingOnAndIsCancelledWithTheOuterOne) {
+TEST(PhaseClock, PassesEverythingOnAndIsCancelledWithTheOuterOne) {
     test::CancelAt outer(2);
-    StageClock clock(outer);
+    PhaseClock clock(outer);
     clock.begin_part("frame 1 of 2");
     std::vector<std::string> kept;
     take_notes(kept, {"radius estimated"}, clock);
