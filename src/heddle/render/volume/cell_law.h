@@ -23,7 +23,7 @@ namespace heddle {
 template <typename Passage>
 class CellLaw {
 public:
-    /// @param start  Ray::start
+    /// @param start  Ray::from_fiber
     /// @param scale  of the volume instance
     CellLaw(const TraversalLevel& level,
             const VoxelRay& ray,

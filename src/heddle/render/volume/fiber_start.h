@@ -21,12 +21,10 @@ namespace heddle {
 [[nodiscard]] inline float integrate_overlap(float x) {
     constexpr float kPi = std::numbers::pi_v<float>;
     if (x <= 1.0f) return x - x * x / kPi;
-    constexpr float kFar = 16.0f; // the exact form cancels
-    float rest = 0.75f + 0.5f * std::log(2.0f * x);
-    if (x < kFar) {
-        const float root = std::sqrt(x * x - 1.0f);
-        rest = x * std::asin(1.0f / x) + 0.5f * (std::log(x + root) - x * (x - root));
-    }
+    // x asin(1 / x) + log(x + r) / 2 - x (x - r) / 2, r = sqrt(x^2 - 1), as a series in 1 / x
+    const float inverse = 1.0f / (x * x);
+    const float rest =
+        0.75f + 0.5f * std::log(2.0f * x) - inverse * (1.0f / 48.0f + inverse / 320.0f);
     return 2.0f / kPi * rest;
 }
 
@@ -54,11 +52,10 @@ public:
         free_ = start.free;
         radius_ = start.radius;
         const float lit = 0.5f * (1.0f + std::clamp(start.cosine, -1.0f, 1.0f));
-        own_depth_ = -std::log(lit + (1.0f - lit) * std::exp(1.0f - level.crowding()));
+        own_depth_ = -std::log(lit + (1.0f - lit) * level.bundle_transmittance());
         const Vec3d h = level.info().lattice.voxel_size;
-        const auto cell = static_cast<float>(std::cbrt(h.x * h.y * h.z)) / kCells;
         const auto speed = static_cast<float>(length(ray.direction * h));
-        own_extinction_ = 2.0f * start.radius / scale / (cell * cell) * speed;
+        own_extinction_ = 2.0f * start.radius / scale * speed / level.cell_section();
         cell_end_ = find_cell_end(ray);
     }
 

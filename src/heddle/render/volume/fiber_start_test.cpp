@@ -22,7 +22,7 @@ TEST(FiberStart, OverlapIsTheMeanOverDirections) {
             sum += end - 0.5 * c * end * end;
         }
         EXPECT_NEAR(static_cast<double>(integrate_overlap(static_cast<float>(x))), sum / kSteps,
-                    2e-4 * x);
+                    2e-3 * x);
     }
 }
 

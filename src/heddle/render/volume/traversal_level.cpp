@@ -196,6 +196,7 @@ void TraversalLevel::find_crowding(const std::vector<std::array<float, 3>>& exti
     // Cylinders of diameter D and volume v cover 4 v / (pi D), if they do not cover each other.
     const double diameter = 4.0 * volume * edge / (std::numbers::pi * blocked);
     crowding_ = static_cast<float>(std::max(1.0, diameter / (2.0 * radius)));
+    bundle_transmittance_ = std::exp(1.0f - crowding_);
 }
 
 void TraversalLevel::fit_cells(const std::vector<Vec3i>& origins,
@@ -207,6 +208,8 @@ void TraversalLevel::fit_cells(const std::vector<Vec3i>& origins,
             for (std::size_t i = begin; i < end; ++i) for_each_voxel(leaves_[i], origins[i], f);
         });
     };
+    const Vec3d h = info_.lattice.voxel_size;
+    cell_section_ = static_cast<float>(std::pow(h.x * h.y * h.z, 2.0 / 3.0)) / (kCells * kCells);
     std::vector<PerAxis> extinction(voxels_.size());
     for_voxels([&](std::size_t v, Vec3i) {
         for (std::size_t a = 0; a < 3; ++a) {

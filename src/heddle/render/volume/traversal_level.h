@@ -84,6 +84,11 @@ public:
     /// alone, more where they are behind each other, so that a voxel's coverage tells only of their
     /// bundle.
     [[nodiscard]] float crowding() const { return crowding_; }
+    /// Returns the transmittance of what blocks rays: of so many fibers behind each other, all but
+    /// the first one.
+    [[nodiscard]] float bundle_transmittance() const { return bundle_transmittance_; }
+    /// Returns the mean area of a cell's faces.
+    [[nodiscard]] float cell_section() const { return cell_section_; }
     /// Returns -ln(1 - coverage) of a voxel along each axis.
     [[nodiscard]] Vec3f depths(std::int64_t v) const;
 
@@ -137,6 +142,8 @@ private:
     VoxelLevelInfo info_;
     bool fibers_only_ = true;
     float crowding_ = 1.0f;
+    float bundle_transmittance_ = 1.0f;
+    float cell_section_ = 1.0f;
     std::uint64_t occupancy_ = 0; ///< sum of Coverage::occupancy
     Vec3i lo_{}, hi_{};
     LeafTable<3> table_;
