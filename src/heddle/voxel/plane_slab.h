@@ -10,7 +10,7 @@
 namespace heddle {
 
 /// A direction without a sign in two bytes: the octahedron's projection of the upper half of the
-/// sphere, turned by 45 degrees. The axes are exact, other directions within half a degree.
+/// sphere, turned by 45 degrees. The axes are exact, other directions within 0.6 degrees.
 struct PackedNormal {
     std::uint8_t u = 127; ///< 127 is 0; 0 to 254
     std::uint8_t v = 127;

@@ -48,15 +48,15 @@ struct Leak {
     MeanOf sheet, product;
 };
 
-Leak leak_of(Vec3d normal, int level, bool oblique) {
+Leak leak_of(Vec3d normal, int level, bool oblique, int planes) {
     Leak out;
     StreamRandom random{4};
     const Vec3d n = normalize(normal);
-    const int extent = level < 2 ? 6 : 4;
-    for (int plane = 0; plane < (level < 2 ? 40 : 8); ++plane) {
+    const int extent = level < 2 ? 5 : 3;
+    for (int plane = 0; plane < planes; ++plane) {
         const Vec3d at{number(random), number(random), number(random)};
         const VolumeInstance volume = volume_with(plane_at(at, n), extent, level);
-        for (int i = 0; i < 300; ++i) {
+        for (int i = 0; i < 400; ++i) {
             Vec3d d = n;
             while (oblique && (dot(d, n) < 0.3 || dot(d, n) > 0.8)) {
                 d = to_double(random_direction(random));
@@ -78,9 +78,9 @@ TEST(Sheet, AnOpaquePlanePassesNothing) {
     for (int level = 0; level < 4; ++level) {
         for (const Tilt& tilt : kTilts) {
             for (const bool oblique : {false, true}) {
-                if (!print && (level == 1 || level == 3)) continue;
-                const Leak leak = leak_of(tilt.normal, level, oblique);
-                EXPECT_LT(leak.sheet.mean(), 0.005 + 3.0 * leak.sheet.error()) << tilt.name;
+                if (!print && level % 2 != 0) continue;
+                const Leak leak = leak_of(tilt.normal, level, oblique, print ? 32 : 6);
+                EXPECT_LT(leak.sheet.mean(), 0.01) << tilt.name; // by the planes' offsets
                 EXPECT_GT(leak.product.mean(), leak.sheet.mean());
                 if (!print) continue;
                 std::cout << "| " << tilt.name << " | " << level << " | "
