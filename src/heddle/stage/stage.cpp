@@ -48,6 +48,19 @@ std::vector<VoxelLevelInfo> read_levels_of(const SceneObject& object, const Scen
     return infos;
 }
 
+/// Notes that a volume does not say where in its voxels matter is, so that `product` is used.
+void note_what_is_missing(const SceneObject& object,
+                          const VoxelLevelInfo& info,
+                          Progress& progress) {
+    const auto is_surface = [](const Material& m) { return m.kind == MaterialKind::Surface; };
+    const bool surfaces = std::any_of(info.materials.begin(), info.materials.end(), is_surface);
+    const bool known = surfaces ? info.fields.slabs : info.fields.occupancy;
+    if (known) return;
+    progress.note(str(object.volume, ": does not store ",
+                      surfaces ? "the slabs of its surfaces" : "the occupancy of its voxels",
+                      ", so --transport product is used; voxelize it again for a better picture"));
+}
+
 } // namespace
 
 Stage::Stage(const Scene& scene, const StageOptions& options, Progress& progress)
@@ -57,7 +70,7 @@ Stage::Stage(const Scene& scene, const StageOptions& options, Progress& progress
       level_offset_(options.level_offset) {
     for (const SceneObject& object : scene.objects) {
         if (is_traced(object, options)) continue;
-        options.flakes ? add_flakes(object, scene) : open_volume(object, scene);
+        options.flakes ? add_flakes(object, scene) : open_volume(object, scene, progress);
     }
     trace_geometry(scene, options, progress);
     for (OpenVolume& volume : open_) read_level(volume);
@@ -83,8 +96,11 @@ void Stage::read_level(OpenVolume& volume) {
     volume.levels[static_cast<std::size_t>(volume.next--)] = std::move(made);
 }
 
-void Stage::open_volume(const SceneObject& object, const Scene& scene) {
+void Stage::open_volume(const SceneObject& object, const Scene& scene, Progress& progress) {
     const std::vector<VoxelLevelInfo> infos = read_levels_of(object, scene);
+    if (transport_from(scene.integrator.transport) == Transport::Automatic) {
+        note_what_is_missing(object, infos.front(), progress);
+    }
     OpenVolume volume;
     volume.path = object.volume;
     volume.levels.resize(infos.size());

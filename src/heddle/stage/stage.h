@@ -56,7 +56,7 @@ private:
         int next = 0;                        ///< level to be read next
         std::unique_ptr<VoxelLevel> parents; ///< the level before that, for volumes of fibers
     };
-    void open_volume(const SceneObject& object, const Scene& scene);
+    void open_volume(const SceneObject& object, const Scene& scene, Progress& progress);
     void add_flakes(const SceneObject& object, const Scene& scene);
     void trace_geometry(const Scene& scene, const StageOptions& options, Progress& progress);
     void place_camera(const Scene& scene);

@@ -84,6 +84,21 @@ TEST(Stage, LevelsComeCoarsestFirst) {
     EXPECT_FALSE(stage.load_next_level());
 }
 
+TEST(Stage, AVolumeThatDoesNotSayWhereItsMatterIsIsNoted) {
+    const TempFolder folder;
+    struct Notes : Progress {
+        std::vector<std::string> sentences;
+        void note(std::string_view sentence) override { sentences.emplace_back(sentence); }
+    } notes;
+    Scene scene = slab_scene(folder);
+    const Stage automatic(scene, {}, notes);
+    ASSERT_EQ(notes.sentences.size(), 1u);
+    EXPECT_NE(notes.sentences[0].find("voxelize it again"), std::string::npos);
+    scene.integrator.transport = "product";
+    const Stage chosen(scene, {}, notes);
+    EXPECT_EQ(notes.sentences.size(), 1u);
+}
+
 TEST(Stage, AForcedLevelIsReadAndNoneFiner) {
     const TempFolder folder;
     Scene scene = slab_scene(folder);
