@@ -52,7 +52,7 @@ public:
                     if (!(t < out)) break;
                     const std::int64_t v = place.leaf->find(ray.base + cell(ray, low, t));
                     if (v < 0) continue;
-                    const float depth = combine_depths(depths_of(level_.voxel(v)) * rate);
+                    const float depth = combine_depths(level_.depths(v) * rate);
                     if (random.uniform() * majorant < depth) return true;
                 }
             }
@@ -78,7 +78,7 @@ private:
             for (int i = 0; i < 512; ++i) {
                 const std::int64_t v = leaf.find({i >> 6, i >> 3 & 7, i & 7});
                 if (v < 0) continue;
-                const Vec3f d = depths_of(level_.voxel(v));
+                const Vec3f d = level_.depths(v);
                 for (int a = 0; a < 3; ++a) most[a] = std::max({most[a], d[a], 1e-6f});
             }
         }

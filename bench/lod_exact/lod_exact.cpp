@@ -1,7 +1,7 @@
 // Prints, as markdown, the error of each level's lobes against all directions of finest geometry.
 
-#include "lod_exact/directions.h"
-#include "lod_exact/parents.h"
+#include "directions.h"
+#include "parents.h"
 
 #include <heddle/base/error.h>
 #include <heddle/geom/generate.h>
