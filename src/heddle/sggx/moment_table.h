@@ -15,8 +15,8 @@ inline constexpr float kTableMinU = 1.0f / 16.0f;
 /// Node (i, j) of the table of the inverse of second_moment_of: 4 floats.
 ///
 /// [0] sigma_x, [1] sigma_y / u^2, [2] sigma_z / (u^2 v), [3] 0 (pads a row to a vector). Cubic
-/// interpolation leaves an error of 1e-5 in M. Made by bench/programs/sggx_moment_table.cpp; a test inverts
-/// it. It is a table because compilers limit the time that evaluating a constant may take.
+/// interpolation leaves an error of 1e-5 in M. Made by bench/programs/sggx_moment_table.cpp; a test
+/// inverts it. It is a table because compilers limit the time that evaluating a constant may take.
 /// @param i  0 .. kTableCountU - 1
 /// @param j  0 .. kTableCountV - 1
 [[nodiscard]] HEDDLE_HD inline const float* moment_table_node(int i, int j) {
