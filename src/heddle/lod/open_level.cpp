@@ -7,7 +7,6 @@
 #include <heddle/voxel/leaf_voxels.h>
 #include <heddle/voxel/occupancy.h>
 #include <heddle/voxel/parent_slab.h>
-#include <heddle/voxel/stored_lobe.h>
 
 #include <bit>
 #include <cmath>

@@ -37,17 +37,13 @@ double share_of_hit(double radius, double edge) {
     return disc / (disc + 0.5 * std::numbers::pi * radius * edge);
 }
 
-/// Calls f(voxel, index) for the voxels of a leaf. @param origin  of the leaf
+/// Calls f(voxel, index) for the voxels of a leaf.
+/// @param origin  of the leaf
 template <typename F>
 void for_each_voxel(const TraversalLeaf& leaf, Vec3i origin, const F& f) {
     auto v = static_cast<std::size_t>(leaf.first_voxel);
-    for (int x = 0; x < 8; ++x) {
-        for (std::uint64_t word = leaf.mask.active[static_cast<std::size_t>(x)]; word != 0;
-             word &= word - 1) {
-            const int bit = std::countr_zero(word);
-            f(v++, origin + Vec3i{x, bit >> 3, bit & 7});
-        }
-    }
+    for_each_active(leaf.mask.active,
+                    [&](std::size_t x, int bit) { f(v++, voxel_index(origin, x, bit)); });
 }
 
 template <typename T>
@@ -121,11 +117,12 @@ TraversalLevel::correlate(const VoxelLevel& parents) const {
     for_each_voxel(parents, [&](const BlockVoxel& parent) {
         const Coverage& c = parent.coverage();
         const std::array<std::uint16_t, 3> whole{c.x, c.y, c.z};
+        const TraversalLeaf* const leaf = find_leaf(parent.at * 2).leaf; // of all its children
+        if (leaf == nullptr) return;
         std::array<std::int64_t, 8> child;
         for (int i = 0; i < 8; ++i) {
             const Vec3i at = parent.at * 2 + Vec3i{i >> 2, i >> 1 & 1, i & 1};
-            const LeafLookup place = find_leaf(at);
-            child[static_cast<std::size_t>(i)] = place.leaf == nullptr ? -1 : place.leaf->find(at);
+            child[static_cast<std::size_t>(i)] = leaf->find(at);
         }
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const auto coverage = [&](std::size_t i) {

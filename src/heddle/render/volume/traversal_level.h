@@ -111,8 +111,6 @@ public:
     [[nodiscard]] const PackedSggx* tangent(std::size_t l) const {
         return tangents_.empty() ? nullptr : &tangents_[l];
     }
-    /// Returns true if all materials are of fibers.
-    [[nodiscard]] bool fibers_only() const { return fibers_only_; }
     [[nodiscard]] bool has_sheets() const { return !sheets_.empty(); }
     /// @param v  a voxel of a level that has sheets
     [[nodiscard]] const SheetVoxel& sheet(std::int64_t v) const {
